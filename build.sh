@@ -2,10 +2,12 @@
 # Builds Strata on Debian 12 and runs it. Installs what is missing with apt.
 #   ./build.sh          set up and build build/strata
 #   ./build.sh demo     record a scenario, replay it with five techniques, print their errors against their times
-#   ./build.sh test     build and run the tests; ./build.sh test all: also the whole product of techniques, scenarios and choices
+#   ./build.sh test     build and run the tests; ./build.sh test all: also the whole product of techniques, scenarios and
+#                       choices, and every mutant
 #   ./build.sh format   check that clang-format would change no file
-#   ./build.sh sanitize build with clang and run the tests of the capture format under address and undefined-behavior sanitizers;
-#                       ./build.sh sanitize all: every test that needs no device
+#   ./build.sh tidy     run clang-tidy on the files that differ from the last landed commit, for at most 180 seconds; ./build.sh tidy 3600 for 3600
+#   ./build.sh sanitize build with clang and run the tests of the capture format under address and undefined-behavior sanitizers, and print
+#                       which of its lines they run; ./build.sh sanitize all: every test that needs no device, and threads under theirs
 #   ./build.sh fuzz     build the fuzzers with clang and run each for 60 seconds, as many at once as there are cores; ./build.sh fuzz 600 for 600
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -20,8 +22,9 @@ packages=(
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format git xvfb xdotool x11-apps xclip libx11-dev chromium-common)
 clang_packages=(clang-14 libclang-rt-14-dev llvm-14)
+tidy_packages=(clang-14 clang-tidy-14)
 
-usage() { sed -n '2,9p' "$0" >&2; exit 2; }
+usage() { sed -n '2,/^set/{/^#/p}' "$0" >&2; exit 2; }
 
 say() { printf '== %s\n' "$*" >&2; }
 
@@ -51,14 +54,14 @@ build() {
 }
 
 demo() {
-    local out=out/demo methods=(alpha_blend sorted_lists exact_function moments wavelet) method
+    local out=out/demo techniques=(alpha_blend sorted_lists exact_function moments wavelet) technique
     mkdir -p "$out"
     build/strata record night_market --size 160x90 -o "$out/market.strata"
     build/strata info "$out/market.strata"
-    for method in "${methods[@]}"; do
-        build/strata replay "$out/market.strata" --use "transparency/$method" -o "$out/$method"
+    for technique in "${techniques[@]}"; do
+        build/strata replay "$out/market.strata" --use "transparency/$technique" -o "$out/$technique"
     done
-    build/strata report "$out/market.strata" --stage transparency --methods "$(IFS=,; echo "${methods[*]}")"
+    build/strata report "$out/market.strata" --stage transparency --techniques "$(IFS=,; echo "${techniques[*]}")"
     echo "all techniques of the stage at all their settings: build/strata report $out/market.strata --stage transparency"
     echo "images:"
     find "$out" -name '*.png' -o -name '*.exr' | sort
@@ -72,7 +75,7 @@ fuzz() {
     local options=(-max_total_time=$seconds -timeout=20 -rss_limit_mb=3000 -max_len=8192 -artifact_prefix="$out/$name-" -print_final_stats=1)
     [ ! -f "tests/fuzz/$name.dict" ] || options+=(-dict="tests/fuzz/$name.dict")
     say "fuzzing $name"
-    if ! "build-sanitize/${name}_fuzzer" "$out/$name" "${options[@]}" >"$out/$name.log" 2>&1; then
+    if ! LLVM_PROFILE_FILE="$out/$name.profraw" "build-sanitize/${name}_fuzzer" "$out/$name" "${options[@]}" >"$out/$name.log" 2>&1; then
         tail -n 60 "$out/$name.log" >&2
         return 1
     fi
@@ -94,7 +97,10 @@ case "${1:-build}" in
         install_missing "${packages[@]}" "${test_packages[@]}"
         build tests
         case "${2:-}" in
-            all) ctest --preset all ;;
+            all)
+                ctest --preset all
+                tests/mutants/run.sh
+                ;;
             "") ctest --preset tests ;;
             *) usage ;;
         esac
@@ -102,6 +108,10 @@ case "${1:-build}" in
     format)
         install_missing clang-format git
         git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
+        ;;
+    tidy)
+        install_missing "${packages[@]}" "${test_packages[@]}" "${tidy_packages[@]}"
+        tests/tidy.sh "${2:-180}"
         ;;
     sanitize)
         install_missing "${packages[@]}" "${test_packages[@]}" "${clang_packages[@]}"
@@ -112,10 +122,18 @@ case "${1:-build}" in
             *) usage ;;
         esac
         build sanitize "${programs[@]}"
+        rm -rf build-sanitize/profiles
         for program in "${programs[@]}"; do
             say "$program under sanitizers"
-            "build-sanitize/$program" --gtest_brief=1
+            LLVM_PROFILE_FILE="build-sanitize/profiles/$program-%p.profraw" "build-sanitize/$program" --gtest_brief=1
         done
+        tests/line_coverage.sh
+        if [ "${2:-}" = all ]; then
+            build threads test_threads
+            say "test_threads under the thread sanitizer"
+            # The disk that fills up and the killed writer are processes of their own, which the thread sanitizer does not follow.
+            build-threads/test_threads --gtest_brief=1
+        fi
         ;;
     fuzz)
         install_missing "${packages[@]}" "${test_packages[@]}" "${clang_packages[@]}"

@@ -3,7 +3,12 @@
 
 #include <string_view>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/light_volume.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/texture.h"
+#include "capture_format/frame/weather.h"
 
 namespace strata {
 

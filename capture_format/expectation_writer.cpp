@@ -27,7 +27,8 @@ Result<void> ExpectationWriter::Extended::begin() {
     if (!begun) return begun.error();
     std::error_code problem;
     std::filesystem::copy_file(capture, begun->temporary(), std::filesystem::copy_options::overwrite_existing, problem);
-    if (problem) return fail_unnamed(Fault::usage, "cannot copy {}: {}", capture.string(), problem.message());
+    if (problem)
+        return fail(Fault::usage, "file.cannot_copy", "cannot copy {file}: {reason}", capture.string(), problem.message());
     auto extended = ContainerWriter::extend(begun->temporary());
     if (!extended) return extended.error();
     file = *std::move(begun);
@@ -39,8 +40,7 @@ Result<void> ExpectationWriter::check(const std::filesystem::path& capture) {
     const auto old = Container::open(capture);
     if (!old) return old.error();
     if (!old->damage()) return {};
-    return fail_unnamed(old->damage()->fault, "{}; expectations are appended to the end of a complete capture: record it again",
-                        old->damage()->sentence);
+    return advised(*old->damage(), "expectations are appended to the end of a complete capture: record it again");
 }
 
 Result<ExpectationWriter> ExpectationWriter::extend(const std::filesystem::path& capture) {
@@ -60,8 +60,8 @@ std::string ExpectationWriter::add_image(std::span<const std::byte> texels) { re
 
 Result<void> ExpectationWriter::add(std::string_view text) {
     if (text.size() > longest_expectation) {
-        return fail_unnamed(Fault::usage, "an expectation of {} bytes is too long; {} are the most", text.size(),
-                            longest_expectation);
+        return fail(Fault::usage, "expect.too_long", "an expectation of {bytes} bytes is too long; the limit is {most}",
+                    text.size(), longest_expectation);
     }
     if (!extended_->writer)
         if (const auto begun = extended_->begin(); !begun) return begun;
@@ -78,8 +78,9 @@ Result<void> ExpectationWriter::finish() {
     if (!extended_->writer) return {};
     if (const auto finished = extended_->writer->finish(); !finished) return finished;
     if (!extended_->lock.is_current()) {
-        return fail_unnamed(Fault::usage, "{} was replaced by another program meanwhile and stays as it is; run this again",
-                            extended_->capture.string());
+        return fail(Fault::usage, "expect.capture_replaced",
+                    "{file} was replaced by another program meanwhile and stays as it is; run this again",
+                    extended_->capture.string());
     }
     return extended_->file->commit();
 }

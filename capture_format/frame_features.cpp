@@ -2,8 +2,14 @@
 #include "capture_format/frame_features.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include <fmt/core.h>
+
+#include "capture_format/frame/lens.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/particles.h"
+#include "capture_format/light_types.h"
 
 namespace strata {
 namespace {
@@ -52,8 +58,6 @@ constexpr auto every_feature = [] {
 }();
 
 constexpr std::string_view alpha_mode_names[] = {"opaque", "mask", "blend", "premultiplied", "additive"};
-constexpr std::string_view light_type_names[] = {"omni light", "round spot", "square spot", "tube",
-                                                 "sphere",     "disc",       "rectangle",   "directional light"};
 
 /// Its name, or its number when it has none.
 std::string called(std::string_view kind, std::string_view own_name, std::size_t index) {
@@ -129,11 +133,7 @@ void find_in_emitters(Features& features, const Frame& frame) {
 void find_in_light(Features& features, const Light& light, const std::string& subject) {
     features.set(Feature::local_lights, subject + " shines");
     if (light.texture != no_index) features.set(Feature::projected_textures, subject + " has a texture");
-    if (light.type == LightType::tube || light.type == LightType::sphere || light.type == LightType::disc ||
-        light.type == LightType::rectangle) {
-        features.set(Feature::area_lights,
-                     fmt::format("{} is a {}", subject, light_type_names[static_cast<std::size_t>(light.type)]));
-    }
+    if (is_area(light.type)) features.set(Feature::area_lights, fmt::format("{} is a {}", subject, facts_of(light.type).title));
     if (!light.clip_planes.empty()) features.set(Feature::clip_planes, subject + " has clip planes");
     if (light.intensity.x < 0 || light.intensity.y < 0 || light.intensity.z < 0) {
         features.set(Feature::darks, subject + " has negative intensity");
@@ -161,7 +161,7 @@ void find_in_lights(Features& features, const Frame& frame) {
 void find_in_surroundings(Features& features, const Frame& frame) {
     if (frame.view.samples > 1) features.set(Feature::multisampled, fmt::format("the view has {} samples", frame.view.samples));
     if (any(frame.hemisphere.sky) || any(frame.hemisphere.ground)) features.set(Feature::hemisphere, "sky or ground shines");
-    if (frame.fog.density > 0) features.set(Feature::fog, fmt::format("the fog's density is {} per metre", frame.fog.density));
+    if (frame.fog.density > 0) features.set(Feature::fog, fmt::format("the fog's density is {} per meter", frame.fog.density));
     if (!frame.light_volumes.empty()) {
         features.set(Feature::light_volumes, fmt::format("the frame has {} light volumes", frame.light_volumes.size()));
     }

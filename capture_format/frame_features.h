@@ -8,9 +8,9 @@
 #include <string>
 #include <string_view>
 
-#include "capture_format/frame.h"
-
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
 
 enum class Feature : std::uint32_t {
     opaque,

@@ -38,11 +38,11 @@ std::uint64_t default_memory_budget() {
 
 Result<void> MemoryBudget::has_room(std::uint64_t count, std::uint64_t size, std::string_view what) const {
     if (size == 0 || count <= left_ / size) return {};
-    return fail_unnamed(
-        Fault::device_lacks,
-        "{} would take {} ({} x {} bytes); the memory budget is {}, of which {} are left: allow more with --memory-budget", what,
-        readable(static_cast<double>(count) * static_cast<double>(size)), count, size, readable(static_cast<double>(total_)),
-        readable(static_cast<double>(left_)));
+    const double bytes = static_cast<double>(count) * static_cast<double>(size);
+    return fail(Fault::device_lacks, "memory.budget",
+                "{what} would take {size} ({count} x {each_bytes} bytes); the memory budget is {budget}, of which {left} are "
+                "left: allow more with --memory-budget",
+                what, readable(bytes), count, size, readable(static_cast<double>(total_)), readable(static_cast<double>(left_)));
 }
 
 Result<void> MemoryBudget::take(std::uint64_t count, std::uint64_t size, std::string_view what) {

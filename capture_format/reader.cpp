@@ -59,25 +59,21 @@ std::string identify(std::span<const Section> sections) {
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-Error at(const Container& container, std::size_t section, const Error& error) {
-    return fail_unnamed(error.fault, "{}: {}", container.whereabouts(section), error.sentence);
-}
-
 }  // namespace
 
 Result<std::string> Capture::Contents::text(std::size_t number, std::size_t longest) const {
     const auto stored = container.stored(number);
     if (!stored) return stored.error();
     if (stored->size() > longest) {
-        return fail_unnamed(Fault::bad_input, "{} has {} bytes; {} are the most", container.whereabouts(number), stored->size(),
-                            longest);
+        return container.located(number, fail(Fault::bad_input, "capture.section.too_long",
+                                              "the section has {bytes} bytes; the limit is {most}", stored->size(), longest));
     }
     return std::string(reinterpret_cast<const char*>(stored->data()), stored->size());
 }
 
 Result<void> Capture::Contents::take_frame(std::size_t number) {
     const Section& section = container.sections()[number];
-    if (const auto known = check_format_version(section.version, container.whereabouts(number)); !known) return known;
+    if (const auto known = check_format_version(section.version); !known) return container.located(number, known.error());
     summary.format_version = std::max(summary.format_version, section.version);
     frames.push_back(number);
     return {};
@@ -108,7 +104,7 @@ Result<void> Capture::Contents::take(std::size_t number) {
         const auto stored = container.stored(number);
         if (!stored) return stored.error();
         Result<Texture> picture = decode_picture(*stored, section.version);
-        if (!picture) return at(container, number, picture.error());
+        if (!picture) return container.located(number, picture.error());
         thumbnail = *std::move(picture);
     }
     if (section.type == SectionType::notes) {
@@ -130,17 +126,20 @@ Result<void> Capture::Contents::unpack(std::size_t frame) {
     const Section& section = container.sections()[number];
     unpacked.reset();
     if (section.raw_bytes > largest_frame_section)
-        return fail_unnamed(Fault::bad_input, "{} claims {} bytes; frames have up to {}", container.whereabouts(number),
-                            section.raw_bytes, largest_frame_section);
+        return container.located(
+            number, fail(Fault::bad_input, "capture.frame.too_large", "the frame has {bytes} bytes; the limit is {most}",
+                         section.raw_bytes, largest_frame_section));
     const std::uint64_t needed = section.raw_bytes * chain_bytes_per_byte;
     if (const auto room = budget.has_room(needed + section.stored_bytes, 1, container.whereabouts(number)); !room) return room;
     const auto stored = container.stored(number);
     if (!stored) return stored.error();
-    if (section.version == 1) return fail_unnamed(Fault::bad_input, "{} cannot be built on", container.whereabouts(number));
+    if (section.version == 1)
+        return container.located(
+            number, fail(Fault::bad_input, "capture.frame.base_version", "frames of format version 1 cannot be built on"));
     budget.give_back(std::exchange(chain_bytes, needed));
     if (const auto taken = budget.take(needed, 1, container.whereabouts(number)); !taken) return taken;
     const auto raw = chain.unpack(*stored, section.raw_bytes);
-    if (!raw) return at(container, number, raw.error());
+    if (!raw) return container.located(number, raw.error());
     unpacked = frame;
     return {};
 }
@@ -155,17 +154,17 @@ Result<std::span<const std::byte>> Capture::Contents::flatbuffer(std::size_t fra
         return std::span<const std::byte>(plain);
     }
     const Result<std::uint32_t> reach = FrameChain::reach(*stored);
-    if (!reach) return at(container, number, reach.error());
+    if (!reach) return container.located(number, reach.error());
     if (*reach > frame) {
-        return fail_unnamed(Fault::bad_input, "{}: it builds on {} frames before it; the file has {}",
-                            container.whereabouts(number), *reach, frame);
+        return container.located(number,
+                                 fail(Fault::bad_input, "capture.frame.too_few_before",
+                                      "the frame builds on {reach} frames before it; the file has {frames}", *reach, frame));
     }
     std::size_t next = frame - *reach;
     if (unpacked && *unpacked >= next && *unpacked <= frame) next = *unpacked + 1;
     for (; next <= frame; ++next) {
         const Result<void> done = unpack(next);
-        if (!done && next < frame)
-            return fail_unnamed(done.error().fault, "{}; frame {} builds on it", done.error().sentence, frame);
+        if (!done && next < frame) return advised(done.error(), "frame {frame} builds on it", frame);
         if (!done) return done.error();
     }
     return chain.newest();
@@ -217,9 +216,8 @@ Result<Capture> Capture::open(std::span<const std::byte> bytes, std::string name
 Result<Capture> Capture::read(Result<Container> container, Partial partial, std::uint64_t memory_budget) {
     if (!container) return container.error();
     if (container->damage() && partial == Partial::refused) {
-        return fail_unnamed(Fault::bad_input,
-                            "{}; pass --allow-partial to replay, info or export to read the complete frames before it",
-                            container->damage()->sentence);
+        return advised(*container->damage(),
+                       "pass --allow-partial to replay, info or export to read the complete frames before it");
     }
     auto contents = std::make_unique<Contents>(*std::move(container), memory_budget);
     if (const Result<void> read = contents->read(partial); !read) return read.error();
@@ -240,7 +238,8 @@ const std::vector<std::string>& Capture::expectations() const { return contents_
 Result<std::vector<std::byte>> Capture::expected_image(std::string_view name, std::uint64_t bytes) const {
     Contents& contents = *contents_;
     const auto hash = parse_blob_hash(name);
-    if (!hash) return fail_unnamed(Fault::bad_input, "an expectation names the image '{}', which is no hash", name);
+    if (!hash)
+        return fail(Fault::bad_input, "expect.image_name", "an expectation names the image '{image}', which is not a hash", name);
     const std::lock_guard lock(contents.decoding);
     if (!contents.images) {
         Result<BlobStore> opened = BlobStore::open(contents.container, contents.budget, SectionType::expect);
@@ -256,8 +255,8 @@ Result<std::vector<std::byte>> Capture::expected_image(std::string_view name, st
 Result<Frame> Capture::frame(std::size_t index) const {
     Contents& contents = *contents_;
     if (index >= contents.frames.size()) {
-        return fail_unnamed(Fault::usage, "there is no frame {}: the capture has {}, counted from 0", index,
-                            contents.frames.size());
+        return fail(Fault::usage, "capture.no_frame", "there is no frame {frame}: the capture has {frames}, numbered from 0",
+                    index, contents.frames.size());
     }
     const std::size_t number = contents.frames[index];
     const std::lock_guard lock(contents.decoding);
@@ -265,9 +264,9 @@ Result<Frame> Capture::frame(std::size_t index) const {
     if (!flatbuffer) return flatbuffer.error();
     Result<Frame> decoded = decode_frame(*flatbuffer, *contents.blobs, contents.budget);
     contents.blobs->keep_only_used();
-    if (!decoded) return at(contents.container, number, decoded.error());
+    if (!decoded) return contents.container.located(number, decoded.error());
     Frame frame = upgrade(*std::move(decoded), contents.container.sections()[number].version);
-    if (const Result<void> checked = check_frame(frame); !checked) return at(contents.container, number, checked.error());
+    if (const Result<void> checked = check_frame(frame); !checked) return contents.container.located(number, checked.error());
     return frame;
 }
 

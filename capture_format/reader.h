@@ -11,14 +11,12 @@
 #include <vector>
 
 #include "capture_format/frame.h"
+#include "capture_format/partial.h"
 #include "capture_format/result.h"
 
 namespace strata {
 
 class Container;
-
-/// Whether a file that was cut short may be read up to the cut.
-enum class Partial { refused, allowed };
 
 /// What is in the file without decoding frames.
 struct CaptureSummary {

@@ -116,7 +116,8 @@ void Recorder::Stream::work() {
         try {
             done = std::visit([this](auto& recorded) { return write(recorded); }, *item);
         } catch (const std::bad_alloc&) {
-            done = writer.give_up(fail_unnamed(Fault::usage, "there is no memory left to record {}", writer.path()));
+            done =
+                writer.give_up(fail(Fault::usage, "record.no_memory", "there is no memory left to record {file}", writer.path()));
         }
         if (done) continue;
         const std::lock_guard lock(reporting);
@@ -160,7 +161,8 @@ Error Recorder::Stream::misused(Error error) {
 
 Result<void> Recorder::Stream::usable() const {
     if (misuse) return *misuse;
-    if (finished) return fail_unnamed(Fault::usage, "{} is finished; nothing can be recorded into it", writer.path());
+    if (finished)
+        return fail(Fault::usage, "record.finished", "{file} is finished; nothing more can be recorded into it", writer.path());
     return {};
 }
 
@@ -176,7 +178,8 @@ template <typename T>
 void Recorder::Stream::update(std::uint32_t count, std::uint32_t index, T resource, std::string_view call) {
     if (!usable()) return;
     if (index >= count) {
-        (void)misused(fail_unnamed(Fault::usage, "{}() was called for index {} of {}", call, index, count));
+        (void)misused(fail(Fault::usage, "record.index_out_of_range", "{call}() was called for index {index} of {count}", call,
+                           index, count));
         return;
     }
     const std::uint64_t bytes = footprint(resource);
@@ -193,7 +196,8 @@ void Recorder::Stream::submit(std::string_view call, const Fill& fill) {
     if (frame) {
         frame_bytes += fill(*frame);
     } else {
-        (void)misused(fail_unnamed(Fault::usage, "{}() was called outside of begin_frame() and end_frame()", call));
+        (void)misused(
+            fail(Fault::usage, "record.outside_frame", "{call}() was called outside of begin_frame() and end_frame()", call));
     }
 }
 
@@ -242,7 +246,8 @@ void Recorder::update_material(std::uint32_t index, Material material) {
 void Recorder::begin_frame(const View& view, double time, std::uint64_t index, std::uint64_t seed) {
     const std::lock_guard lock(stream_->calls);
     if (stream_->frame) {
-        (void)stream_->misused(fail_unnamed(Fault::usage, "begin_frame() was called twice without end_frame() between"));
+        (void)stream_->misused(
+            fail(Fault::usage, "record.begun_twice", "begin_frame() was called twice without end_frame() between"));
         return;
     }
     stream_->frame = stream_->queue.empty_frame();
@@ -299,7 +304,8 @@ void Recorder::camera(const Lens& lens, const Film& film) {
 Result<void> Recorder::end_frame() {
     const std::lock_guard lock(stream_->calls);
     if (const Result<void> ready = stream_->usable(); !ready) return ready;
-    if (!stream_->frame) return stream_->misused(fail_unnamed(Fault::usage, "end_frame() was called without begin_frame()"));
+    if (!stream_->frame)
+        return stream_->misused(fail(Fault::usage, "record.not_begun", "end_frame() was called without begin_frame()"));
     const std::uint64_t number = stream_->frames++, bytes = std::exchange(stream_->frame_bytes, 0);
     const Result<void> pushed =
         stream_->queue.push(SubmittedFrame{std::move(stream_->frame), number}, bytes, fmt::format("frame {}", number));
@@ -310,7 +316,8 @@ Result<void> Recorder::record(Frame frame) {
     const std::lock_guard lock(stream_->calls);
     if (const Result<void> ready = stream_->usable(); !ready) return ready;
     if (stream_->frame)
-        return stream_->misused(fail_unnamed(Fault::usage, "record() was called within begin_frame() and end_frame()"));
+        return stream_->misused(
+            fail(Fault::usage, "record.within_frame", "record() was called within begin_frame() and end_frame()"));
     const std::uint64_t number = stream_->frames++, bytes = recorded_bytes(frame);
     const Result<void> pushed = stream_->queue.push(WholeFrame{std::make_unique<Frame>(std::move(frame)), number}, bytes,
                                                     fmt::format("frame {}", number));
@@ -339,7 +346,7 @@ RecorderLoad Recorder::load() const { return stream_->queue.load(); }
 Result<void> Recorder::finish() {
     const std::lock_guard lock(stream_->calls);
     if (const Result<void> ready = stream_->usable(); !ready) return ready;
-    if (stream_->frame) return stream_->misused(fail_unnamed(Fault::usage, "finish() was called before end_frame()"));
+    if (stream_->frame) return stream_->misused(fail(Fault::usage, "record.not_ended", "finish() was called before end_frame()"));
     stream_->stop();
     stream_->finished = true;
     const Result<void> finished = stream_->writer.finish();

@@ -23,7 +23,8 @@ bool RecordingQueue::worth_waking() const {
 
 Result<void> RecordingQueue::push(Recorded item, std::uint64_t bytes, std::string_view what) {
     if (bytes > budget_) {
-        return fail_unnamed(Fault::usage, "{} takes {} bytes, more than the recorder's budget of {}", what, bytes, budget_);
+        return fail(Fault::usage, "record.budget", "{resource} takes {bytes} bytes, more than the recorder's budget of {budget}",
+                    what, bytes, budget_);
     }
     std::unique_lock lock(mutex_);
     if (load_.held_bytes + bytes > budget_) {

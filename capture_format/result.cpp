@@ -95,5 +95,12 @@ Error wrapped(Error error, std::string_view where, fmt::format_args args) {
     return error;
 }
 
+Error remarked(Error error, std::string_view remark, fmt::format_args args) {
+    const PlainSentence plain = without_names(remark);
+    error.sentence += "; " + fmt::vformat(plain.format, args);
+    for (ErrorField& field : fields_of(plain.names, args)) error.fields.push_back(std::move(field));
+    return error;
+}
+
 }  // namespace detail
 }  // namespace strata

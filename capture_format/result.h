@@ -110,6 +110,7 @@ private:
 
 Error error_of(Fault, ErrorId, std::string_view sentence, fmt::format_args);
 Error wrapped(Error, std::string_view where, fmt::format_args);
+Error remarked(Error, std::string_view remark, fmt::format_args);
 
 }  // namespace detail
 
@@ -124,6 +125,12 @@ Error fail(Fault fault, ErrorId id, std::type_identity_t<detail::Sentence<Args..
 template <typename... Args>
 Error within(Error error, std::type_identity_t<detail::Sentence<Args...>> where, Args&&... args) {
     return detail::wrapped(std::move(error), where.named(), fmt::make_format_args(args...));
+}
+
+/// The same error with a remark, such as what to do, behind its sentence: "...; record it again". Keeps what within() keeps.
+template <typename... Args>
+Error advised(Error error, std::type_identity_t<detail::Sentence<Args...>> remark, Args&&... args) {
+    return detail::remarked(std::move(error), remark.named(), fmt::make_format_args(args...));
 }
 
 /// An Error that has no id yet.

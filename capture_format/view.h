@@ -1,6 +1,6 @@
 // Where a frame is seen from.
 //
-//   View space   +x right, +y up, +z forward: left-handed. view = to_view * (world - origin); z is the view depth, in metres.
+//   View space   +x right, +y up, +z forward: left-handed. view = to_view * (world - origin); z is the view depth, in meters.
 //   Clip space   Vulkan's: +x right, +y down, z / w from 0 to 1. Depth is reversed and has no far plane: z / w = near / depth is
 //                1 at the near plane and 0 at infinity.
 #pragma once
@@ -19,7 +19,7 @@ struct View {
     glm::vec2 jitter{0};      ///< NDC, added to x / w and y / w
     std::uint32_t width = 160, height = 90;
     std::uint32_t samples = 1;  ///< 1 or 4
-    float near = 0.1f;          ///< metres
+    float near = 0.1f;          ///< meters
     float exposure = 1;
 };
 
@@ -32,7 +32,7 @@ struct Camera {
     glm::dvec3 eye{0}, target{0, 0, -1};  ///< world
     glm::dvec3 up{0, 1, 0};               ///< world; any length, any direction but that of the target
     double vertical_fov = 0.8;            ///< radians between the lower and the upper edge of the image
-    double near = 0.1;                    ///< metres
+    double near = 0.1;                    ///< meters
     std::uint32_t width = 160, height = 90;
     Handedness handedness = Handedness::right;  ///< of the world
 };

@@ -5,6 +5,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "capture_format/frame.h"
+
 namespace strata {
 
 Frame frame_of_cards(std::span<const Card> cards, std::uint32_t extent) {

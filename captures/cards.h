@@ -4,9 +4,11 @@
 
 #include <span>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/material.h"
 
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
 
 struct Card {
     glm::dvec3 center{0, 0, 1};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
 
 namespace strata {
@@ -13,18 +14,18 @@ namespace {
 constexpr std::uint32_t extent = 8;
 // Depth on [-1, 1], logarithmic from 1 to 50 m: the range every frame has, whatever else is in it.
 constexpr double nearest = 1, farthest = 50;
-double metres(double w) { return nearest * std::pow(farthest / nearest, .5 * (w + 1)); }
+double meters(double w) { return nearest * std::pow(farthest / nearest, .5 * (w + 1)); }
 
 /// Fills the picture.
 Card layer(double z, glm::vec3 color, float alpha, AlphaMode mode = AlphaMode::blend) {
     return {.center = {0, 0, z}, .half = float(1.5 * z), .color = glm::vec4(color, alpha), .alpha_mode = mode};
 }
-Card grey(double z, float color, float alpha) { return layer(z, glm::vec3(color), alpha); }
+Card gray(double z, float color, float alpha) { return layer(z, glm::vec3(color), alpha); }
 
 /// With two cards out of sight that pin the range of depth.
 Frame frame_of(std::vector<Card> cards, glm::vec3 background = glm::vec3(0)) {
     for (const double z : {nearest, farthest}) {
-        cards.push_back(grey(z, 1, .5f));
+        cards.push_back(gray(z, 1, .5f));
         cards.back().center.x = 1e4;
         cards.back().half = .1f;
     }
@@ -36,7 +37,7 @@ Frame frame_of(std::vector<Card> cards, glm::vec3 background = glm::vec3(0)) {
 /// Red in front of green in front of blue, all opaque.
 std::vector<Frame> opaque_cards(double spacing) {
     return {
-        frame_of({layer(metres(-spacing), {1, 0, 0}, 1), layer(metres(0), {0, 1, 0}, 1), layer(metres(spacing), {0, 0, 1}, 1)})};
+        frame_of({layer(meters(-spacing), {1, 0, 0}, 1), layer(meters(0), {0, 1, 0}, 1), layer(meters(spacing), {0, 0, 1}, 1)})};
 }
 std::vector<Frame> cards_far_apart() { return opaque_cards(.1); }
 std::vector<Frame> cards_at_a_fiftieth() { return opaque_cards(.02); }
@@ -45,8 +46,8 @@ std::vector<Frame> cards_at_a_two_thousandth() { return opaque_cards(.0005); }
 std::vector<Frame> more_and_more_behind() {
     std::vector<Frame> frames;
     for (const int count : {1, 2, 3, 5, 8}) {
-        std::vector<Card> cards{grey(metres(.1), 1, .9f)};
-        for (int i = 1; i < count; ++i) cards.push_back(grey(metres(.1 + .02 * i), 0, .9f));
+        std::vector<Card> cards{gray(meters(.1), 1, .9f)};
+        for (int i = 1; i < count; ++i) cards.push_back(gray(meters(.1 + .02 * i), 0, .9f));
         frames.push_back(frame_of(cards));
     }
     return frames;
@@ -56,7 +57,7 @@ std::vector<Frame> moving_stack() {
     std::vector<Frame> frames;
     for (int step = 0; step < 33; ++step) {
         const double w = -.25 + .5 * step / 32;
-        frames.push_back(frame_of({grey(metres(w), 1, .9f), grey(metres(w + .02), 0, .9f)}));
+        frames.push_back(frame_of({gray(meters(w), 1, .9f), gray(meters(w + .02), 0, .9f)}));
     }
     return frames;
 }
@@ -64,7 +65,7 @@ std::vector<Frame> moving_stack() {
 /// Two panes an eighth of an inch apart.
 std::vector<Frame> back_to_back_glass() {
     std::vector<Frame> frames;
-    for (const double z : {.508, 2.54, 10.16}) frames.push_back(frame_of({grey(z, 1, .5f), grey(z + .003175, 0, .5f)}));
+    for (const double z : {.508, 2.54, 10.16}) frames.push_back(frame_of({gray(z, 1, .5f), gray(z + .003175, 0, .5f)}));
     return frames;
 }
 
@@ -78,13 +79,13 @@ std::vector<Frame> two_hundred_thin_layers() {
 }
 
 std::vector<Frame> with_and_without_alpha_zero() {
-    const Card pane = grey(5, .7f, .5f), nothing = grey(3, .9f, 0);
+    const Card pane = gray(5, .7f, .5f), nothing = gray(3, .9f, 0);
     return {frame_of({pane}, glm::vec3(.3f)), frame_of({pane, nothing}, glm::vec3(.3f))};
 }
 
-std::vector<Frame> alpha_one_before_the_background() { return {frame_of({grey(5, .25f, 1)}, glm::vec3(1))}; }
+std::vector<Frame> alpha_one_before_the_background() { return {frame_of({gray(5, .25f, 1)}, glm::vec3(1))}; }
 
-std::vector<Frame> two_walls() { return {frame_of({layer(metres(-.25), {1, 0, 0}, 1), layer(metres(.25), {0, 1, 0}, 1)})}; }
+std::vector<Frame> two_walls() { return {frame_of({layer(meters(-.25), {1, 0, 0}, 1), layer(meters(.25), {0, 1, 0}, 1)})}; }
 
 std::vector<Frame> emission_alone() {
     std::vector<Card> cards;
@@ -94,12 +95,12 @@ std::vector<Frame> emission_alone() {
 
 std::vector<Frame> blinding_layers() {
     std::vector<Card> cards;
-    for (int i = 0; i < 30; ++i) cards.push_back(grey(1.1 + .01 * i, 9000, .9f));
+    for (int i = 0; i < 30; ++i) cards.push_back(gray(1.1 + .01 * i, 9000, .9f));
     return {frame_of(cards)};
 }
 
 std::vector<Frame> beyond_half_floats() {
-    return {frame_of({grey(1000, 0, .5f), grey(32000, 1, .5f), grey(1e6, 0, .5f)}, glm::vec3(.5f))};
+    return {frame_of({gray(1000, 0, .5f), gray(32000, 1, .5f), gray(1e6, 0, .5f)}, glm::vec3(.5f))};
 }
 
 /// Every order of submission.
@@ -108,7 +109,7 @@ std::vector<Frame> coincident(std::vector<std::pair<float, float>> color_and_alp
     std::vector<Frame> frames;
     do {
         std::vector<Card> cards;
-        for (const auto& [color, alpha] : color_and_alpha) cards.push_back(grey(5, color, alpha));
+        for (const auto& [color, alpha] : color_and_alpha) cards.push_back(gray(5, color, alpha));
         frames.push_back(frame_of(cards));
     } while (std::ranges::next_permutation(color_and_alpha).found);
     return frames;
@@ -120,7 +121,7 @@ std::vector<Frame> two_unequal_coincident() { return coincident({{1, .9f}, {0, .
 std::vector<Frame> one_bad_particle() {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
     Emitter emitter{.name = "smoke"};
-    // Not at 3.5 and 4 m: there the eye's rays meet the corners of cells that are powers of two of metres, and a hash of the cell
+    // Not at 3.5 and 4 m: there the eye's rays meet the corners of cells that are powers of two of meters, and a hash of the cell
     // (hashed alpha) hangs on a float's last bit.
     for (int i = 0; i < 19; ++i)
         emitter.particles.push_back(
@@ -140,34 +141,34 @@ std::vector<Frame> one_bad_particle() {
 }
 
 std::vector<Frame> facade_far_away() {
-    return {frame_of({grey(150, 1, .5f), grey(150.3, 0, .5f), layer(155, {1, 0, 0}, .95f), grey(152, .8f, .3f)}, glm::vec3(.5f))};
+    return {frame_of({gray(150, 1, .5f), gray(150.3, 0, .5f), layer(155, {1, 0, 0}, .95f), gray(152, .8f, .3f)}, glm::vec3(.5f))};
 }
 
 /// A black wall in the depth buffer.
 std::vector<Frame> smoke_before_a_wall() {
-    Card wall = grey(8, 0, 1);
+    Card wall = gray(8, 0, 1);
     wall.alpha_mode = AlphaMode::opaque;
-    return {frame_of({wall, grey(metres(0), 1, .1f)})};
+    return {frame_of({wall, gray(meters(0), 1, .1f)})};
 }
-std::vector<Frame> smoke_before_a_card() { return {frame_of({grey(metres(0), 1, .1f), grey(metres(.3), 0, 1)})}; }
+std::vector<Frame> smoke_before_a_card() { return {frame_of({gray(meters(0), 1, .1f), gray(meters(.3), 0, 1)})}; }
 
 std::vector<Frame> closer_and_closer() {
     std::vector<Frame> frames;
     for (const double gap : {0., .25, .5, 1., 2., 3.})
         for (int phase = 0; phase < 4; ++phase) {
             const double w = phase / 64.;
-            frames.push_back(frame_of({grey(metres(w + gap / 64), 0, .5f), grey(metres(w), 1, .5f)}));
+            frames.push_back(frame_of({gray(meters(w + gap / 64), 0, .5f), gray(meters(w), 1, .5f)}));
         }
     return frames;
 }
 
 std::vector<Frame> nothing_in_sight() {
-    Card wall = grey(2, .6f, 1);
+    Card wall = gray(2, .6f, 1);
     wall.alpha_mode = AlphaMode::opaque;
-    return {frame_of({wall, grey(5, 1, .5f)}), frame_of({}, glm::vec3(.4f))};
+    return {frame_of({wall, gray(5, 1, .5f)}), frame_of({}, glm::vec3(.4f))};
 }
 
-std::vector<Frame> one_layer_mid_range() { return {frame_of({grey(metres(0), .7f, .5f)}, glm::vec3(.2f))}; }
+std::vector<Frame> one_layer_mid_range() { return {frame_of({gray(meters(0), .7f, .5f)}, glm::vec3(.2f))}; }
 
 constexpr auto hard_case_table = std::to_array<HardCase>({
     {"H1a cards far apart", "of three opaque cards .1 apart in the logarithm of depth on [-1, 1], is only the first seen?",

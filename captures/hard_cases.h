@@ -1,14 +1,14 @@
-// The frames on which methods of transparency come to grief, small and computable by hand (docs/algorithms/transparency.md 8, H1
-// to H16). What a technique makes of them is measured by replay/report/hard_cases.h.
+// The frames on which techniques of transparency come to grief, small and computable by hand (docs/algorithms/transparency.md 8,
+// H1 to H16). What a technique makes of them is measured by replay/report/hard_cases.h.
 #pragma once
 
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "capture_format/frame.h"
-
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
 
 /// What is measured over a case's frames, per pixel and channel, relative to max(1, the truth); the worst counts.
 enum class HardMeasure {
@@ -22,7 +22,7 @@ struct HardCase {
     std::string_view name;  ///< "H14b thin smoke before an opaque card"
     std::string_view question;
     HardMeasure measure = HardMeasure::error;
-    double accept = 0;  ///< up to here a method holds
+    double tolerance = 0;  ///< up to here a technique holds
     std::vector<Frame> (*build)() = nullptr;
 };
 

@@ -28,10 +28,10 @@ constexpr auto scenario_table = std::to_array<Scenario>({
     {"opaque_only", "Does a stage that is not needed stay out of the way?", 96, 54, scenario::opaque_only},
     {"one_pane", "Is one layer over a background exact?", 64, 36, scenario::one_pane},
     {"three_panes", "Does the order of submission show where three colors overlap?", 64, 36, scenario::three_panes},
-    {"sixty_layers", "What happens beyond the number of layers a method keeps?", 64, 36, scenario::sixty_layers},
+    {"sixty_layers", "What happens beyond the number of layers a technique keeps?", 64, 36, scenario::sixty_layers},
     {"two_hundred_layers", "Do two hundred layers of one percent survive thresholds and half floats?", 64, 36,
      scenario::two_hundred_layers},
-    {"pane_at_the_lens", "Does a layer just behind the near plane ruin a method's depth range?", 64, 36,
+    {"pane_at_the_lens", "Does a layer just behind the near plane ruin a technique's depth range?", 64, 36,
      scenario::pane_at_the_lens},
     {"red_and_green_glass", "Is transmittance a color: what is seen through red glass and green glass?", 64, 36,
      scenario::red_and_green_glass},
@@ -117,7 +117,7 @@ Result<const Scenario*> find_scenario(std::string_view name) {
         if (scenario.name == name) return &scenario;
         names.push_back(scenario.name);
     }
-    return fail_unnamed(Fault::usage, "no scenario {}{}", name, did_you_mean(name, names));
+    return fail(Fault::usage, "scenario.unknown", "there is no scenario {scenario}{suggestion}", name, did_you_mean(name, names));
 }
 
 }  // namespace strata

@@ -1,6 +1,6 @@
 // Which way a device rounds sums that it blends into floats of 16, 11 and 10 bits. Vulkan leaves it open: lavapipe 22.3 rounds
-// towards zero, hardware commonly to nearest. replay/measure/measured_rounding.h measures it; models of methods that blend need
-// it.
+// towards zero, hardware commonly to nearest. replay/measure/measured_rounding.h measures it; models of techniques that blend
+// need it.
 #pragma once
 
 namespace strata {

@@ -12,7 +12,7 @@ enum class Capability : std::uint32_t {
     buffer_int64_atomics,  ///< and 64-bit integers in shaders
     fragment_interlock,
     shader_output_layer,  ///< vertex shaders may write gl_Layer; else geometry shaders alone
-    long_loops,           ///< a shader's loops may turn more than most_short_turns times
+    long_loops,           ///< a shader's loops may iterate more than most_short_iterations times
     geometry_shaders,
     dual_source_blending,  ///< a fragment shader may give the blend a second color, and so a transmittance per channel
     counted_draws,         ///< the device may read how many commands of a list it draws
@@ -21,7 +21,7 @@ enum class Capability : std::uint32_t {
 std::string_view name(Capability);
 
 /// llvmpipe ends all loops of an invocation, together, after so many turns, and says nothing (passes/shaders/finished.glsl).
-inline constexpr std::uint64_t most_short_turns = 65'535;
+inline constexpr std::uint64_t most_short_iterations = 65'535;
 
 using Capabilities = std::vector<Capability>;
 bool has(const Capabilities&, Capability);

@@ -3,7 +3,7 @@
 
 namespace strata {
 
-/// In metres.
+/// In meters.
 struct DepthRange {
     float nearest = 0, farthest = 0;
 };

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "passes/graph/graph.h"
+
 namespace strata {
 namespace {
 

@@ -10,15 +10,16 @@
 #include <span>
 #include <string_view>
 
-#include "capture_format/frame.h"
-#include "capture_format/frame_features.h"
 #include "passes/capability.h"
-#include "passes/graph/graph.h"
-#include "passes/shadows/shadow_filter.h"
+#include "passes/graph/step.h"
+#include "passes/shadow_filter.h"
 
 namespace strata {
 
+class Features;    // capture_format/frame_features.h
+class Graph;       // passes/graph/graph.h
 class SceneFacts;  // passes/scene/scene_facts.h
+struct Frame;      // capture_format/frame.h
 
 struct FrameImages {
     // What is recorded.

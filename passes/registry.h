@@ -1,14 +1,21 @@
 // Finds techniques by name and by stage. The table itself is written by the build from the list in passes/CMakeLists.txt.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
-#include "passes/technique.h"
+#include "capture_format/result.h"
+#include "passes/stage.h"
 
 namespace strata {
+
+class Features;                      // capture_format/frame_features.h
+enum class Feature : std::uint32_t;  // capture_format/frame_features.h
+struct Technique;                    // passes/technique.h
 
 /// What the function of every technique on the list returns; written by the build.
 std::vector<Technique> technique_table();
@@ -16,8 +23,15 @@ std::vector<Technique> technique_table();
 /// Every technique on the list, in the list's order.
 std::span<const Technique> techniques();
 
-/// Fails with the nearest known name: "no technique transparency/weigthed; did you mean transparency/weighted?"
+/// By its name. Fails with the nearest known name: "no technique transparency/weigthed; did you mean transparency/weighted?"
 Result<const Technique*> find_technique(std::string_view name);
+/// What a user may write for a technique of the stage, or of any: its name with or without the stage, or an alias.
+std::vector<std::string_view> words_for_techniques(std::optional<Stage> = std::nullopt);
+/// Those that a user may mean: by name, by name without the stage, or by an alias; the stage may be given by its alias, too.
+std::vector<const Technique*> techniques_called(std::string_view word);
+/// The one of those, of that stage where one is given and has it. Fails where there is none or there are several, with the names
+/// to choose from.
+Result<const Technique*> technique_called(std::string_view word, std::optional<Stage> = std::nullopt);
 /// The techniques of a stage, in the list's order; the first is the stage's default.
 std::vector<const Technique*> techniques_of(Stage);
 /// The first of its features that the technique cannot do, or nothing.

@@ -1,6 +1,9 @@
 // Finds stages in the table that passes/techniques.cmake writes from the list in passes/CMakeLists.txt. A stage that is unwanted
-// is left out with its techniques' own acts; what another stage's technique does at this point of the frame still happens.
+// is left out with its techniques' own passes; what another stage's technique does at this point of the frame still happens.
 #include "passes/stages.h"
+
+#include <algorithm>
+#include <cstddef>
 
 namespace strata {
 
@@ -20,7 +23,7 @@ const StageInfo& info(Stage stage) { return stages()[static_cast<std::size_t>(st
 
 std::optional<Stage> find_stage(std::string_view name) {
     for (const StageInfo& stage : stages())
-        if (stage.name == name) return stage.stage;
+        if (stage.name == name || std::ranges::count(stage.aliases, name) > 0) return stage.stage;
     return std::nullopt;
 }
 

@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "capture_format/nearest_name.h"
+#include "capture_format/result.h"
+#include "passes/graph/step.h"
+#include "passes/stages.h"
 
 namespace strata {
 namespace {
@@ -37,9 +40,13 @@ Result<double> checked(const Param& param, double value) {
     const bool whole = param.scalar == Scalar::real || value == std::floor(value);
     if (value >= range.low && value <= range.high && whole) return value;
     if (!param.choices.empty())
-        return fail_unnamed(Fault::usage, "{} is one of {}, not {}", param.name, choices_text(param), value);
-    const std::string_view kind = param.scalar == Scalar::integer ? "a whole number " : "";
-    return fail_unnamed(Fault::usage, "{} is {}from {} to {}, not {}", param.name, kind, range.low, range.high, value);
+        return fail(Fault::usage, "settings.not_a_choice", "{setting} is one of {choices}, not {value}", param.name,
+                    choices_text(param), value);
+    if (!whole)
+        return fail(Fault::usage, "settings.not_whole", "{setting} is a whole number from {low} to {high}, not {value}",
+                    param.name, range.low, range.high, value);
+    return fail(Fault::usage, "settings.out_of_range", "{setting} is from {low} to {high}, not {value}", param.name, range.low,
+                range.high, value);
 }
 
 Result<double> parsed(const Param& param, std::string_view text) {
@@ -47,9 +54,10 @@ Result<double> parsed(const Param& param, std::string_view text) {
         if (param.choices[i] == text) return static_cast<double>(i);
     if (const auto number = number_in(text)) return checked(param, *number);
     if (!param.choices.empty())
-        return fail_unnamed(Fault::usage, "{} is one of {}, not {}{}", param.name, choices_text(param), text,
-                            did_you_mean(text, param.choices));
-    return fail_unnamed(Fault::usage, "{} is a number from {} to {}, not '{}'", param.name, param.low, param.high, text);
+        return fail(Fault::usage, "settings.not_a_choice", "{setting} is one of {choices}, not {value}{suggestion}", param.name,
+                    choices_text(param), text, did_you_mean(text, param.choices));
+    return fail(Fault::usage, "settings.not_a_number", "{setting} is a number from {low} to {high}, not '{value}'", param.name,
+                param.low, param.high, text);
 }
 
 Result<std::size_t> find_param(std::span<const Param> params, std::string_view name) {
@@ -58,7 +66,7 @@ Result<std::size_t> find_param(std::span<const Param> params, std::string_view n
         if (params[i].name == name) return i;
         known.push_back(params[i].name);
     }
-    return fail_unnamed(Fault::usage, "no parameter {}{}", name, did_you_mean(name, known));
+    return fail(Fault::usage, "settings.unknown", "no parameter {setting}{suggestion}", name, did_you_mean(name, known));
 }
 
 template <typename T>

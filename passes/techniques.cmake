@@ -205,7 +205,7 @@ function(add_techniques target)
             message(FATAL_ERROR "technique ${technique} is on the list in passes/CMakeLists.txt, but there is no ${source}")
         endif()
     endforeach()
-    write_table(${target} technique_table Technique passes/registry.h ${ARGN})
+    write_table(${target} technique_table Technique passes/technique.h ${ARGN})
     write_gbuffer_coders(${ARGN})
 
     set(spirv "")

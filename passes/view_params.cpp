@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include "passes/technique.h"
+
 namespace strata {
 bool names_param(const DebugView& view, std::string_view param) {
     return view.help.find(fmt::format("`{}`", param)) != view.help.npos;

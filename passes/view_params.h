@@ -4,9 +4,11 @@
 #include <string_view>
 #include <vector>
 
-#include "passes/technique.h"
-
 namespace strata {
+
+struct DebugView;  // passes/debug_views.h
+struct Param;      // passes/settings.h
+struct Technique;  // passes/technique.h
 
 /// Whether the view's help names the parameter, as in "texels of pyramid level `level`". Words that are a parameter's name by
 /// coincidence ("before distortion") are none.

@@ -1,5 +1,6 @@
 #include "replay/error_text.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -20,13 +21,26 @@ ordered_json json_of(const ErrorField& field) {
         field.value);
 }
 
+template <typename Number>
+std::string as_word(Number number) {
+    return fmt::format("{}", number);
+}
+
+/// In quotes, as JSON has it, where it is more than a word: the line of an error stays one line, and its values stay apart.
+std::string as_word(const std::string& text) {
+    const bool is_word =
+        !text.empty() && std::ranges::all_of(text, [](unsigned char c) { return c > ' ' && c != '"' && c != 127; });
+    return is_word ? text : ordered_json(text).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
 }  // namespace
 
 std::string id_text(const Error& error) {
     std::string text(error.id.text());
     const char* gap = ": ";
     for (const ErrorField& field : error.fields) {
-        text += std::visit([&](const auto& value) { return fmt::format("{}{}={}", gap, field.name, value); }, field.value);
+        const std::string value = std::visit([](const auto& held) { return as_word(held); }, field.value);
+        text += fmt::format("{}{}={}", gap, field.name, value);
         gap = " ";
     }
     return text;

@@ -9,7 +9,7 @@
 
 namespace strata {
 
-/// "import.gltf.accessor_range: accessor=3 bytes=1024".
+/// One line: import.gltf.accessor_range: accessor=3 name="left hand" bytes=1024
 std::string id_text(const Error&);
 /// {"id", "kind", "exit_code", "sentence", "fields": {name: number or text}}.
 nlohmann::ordered_json json_of(const Error&);

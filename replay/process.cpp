@@ -38,7 +38,8 @@ Result<EndedProcess> run_process(ProcessRequest wanted) {
     const bool is_written =
         in && out && err && std::fwrite(wanted.input.data(), 1, wanted.input.size(), in.get()) == wanted.input.size();
     if (!is_written || std::fflush(in.get()) != 0)
-        return fail_unnamed(Fault::usage, "cannot write a temporary file: {}", std::generic_category().message(errno));
+        return fail(Fault::usage, "process.no_temporary_file", "cannot write a temporary file: {reason}",
+                    std::generic_category().message(errno));
     std::rewind(in.get());
 
     posix_spawn_file_actions_t files;
@@ -50,8 +51,8 @@ Result<EndedProcess> run_process(ProcessRequest wanted) {
                                      pointers(wanted.environment).data());
     posix_spawn_file_actions_destroy(&files);
     if (problem != 0)
-        return fail_unnamed(Fault::device_failed, "cannot start {}: {}", wanted.arguments.front(),
-                            std::generic_category().message(problem));
+        return fail(Fault::device_failed, "process.cannot_start", "cannot start {program}: {reason}", wanted.arguments.front(),
+                    std::generic_category().message(problem));
     EndedProcess ended;
     while (waitpid(child, &ended.status, 0) < 0 && errno == EINTR) {}
     ended.out = contents(out.get());

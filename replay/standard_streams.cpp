@@ -70,7 +70,8 @@ Result<void> finish_stdout() {
         std::signal(SIGPIPE, SIG_DFL);
         std::raise(SIGPIPE);
     }
-    return fail_unnamed(Fault::usage, "cannot write to standard output: {}", std::generic_category().message(stdout_problem));
+    return fail(Fault::usage, "stdout.cannot_write", "cannot write to standard output: {reason}",
+                std::generic_category().message(stdout_problem));
 }
 
 }  // namespace strata

@@ -5,6 +5,7 @@
 #include <future>
 #include <sstream>
 
+#include "capture_format/reader.h"
 #include "replay/standard_streams.h"
 #include "ui/script/script.h"
 #include "ui/window/window.h"
@@ -73,7 +74,7 @@ Result<void> play_script(const InspectOptions& options) {
     std::ifstream file(options.script);
     std::stringstream text;
     text << file.rdbuf();
-    if (file.bad()) return fail_unnamed(Fault::bad_input, "cannot read {}", options.script.string());
+    if (file.bad()) return fail(Fault::bad_input, "file.cannot_read", "cannot read {file}", options.script.string());
     const auto lines = parse_script(text.str(), options.script.string());
     if (!lines) return lines.error();
     const Context context;
@@ -87,9 +88,9 @@ Result<void> play_script(const InspectOptions& options) {
     if (const auto played = play(player, *lines, options.script.string(), std::filesystem::current_path()); !played)
         return played;
     const std::vector<std::string> messages = (*layer)->take_messages();
-    return messages.empty()
-               ? Result<void>()
-               : fail_unnamed(Fault::device_failed, "the validation layer says of the inspector: {}", messages.front());
+    return messages.empty() ? Result<void>()
+                            : fail(Fault::device_failed, "window.validation_message",
+                                   "the validation layer says of the inspector: {message}", messages.front());
 }
 
 Result<void> show_window(const InspectOptions& options) {

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 
+#include "capture_format/reader.h"
+#include "passes/scene/scene_facts.h"
+#include "replay/error_text.h"
 #include "replay/plural.h"
 #include "ui/frame/frame_rows.h"
+#include "ui/widget_tree.h"
 #include "ui/widgets/keys_list.h"
-#include "ui/widgets/widget_tree.h"
 #include "ui/window/keys.h"
 
 namespace strata::ui {
@@ -77,6 +80,7 @@ void Inspector::take_results() {
     const std::string sentence = error ? error->sentence : "";
     if (!sentence.empty() && sentence != last_error_) say(LogLine::Kind::failed, sentence);
     last_error_ = sentence;
+    last_id_ = error ? id_text(*error) : "";
     Services all = services();
     shader_reload_.take_result(model_, all);
     save_window_.take_results(all);
@@ -336,6 +340,7 @@ void Inspector::draw_status() {
             "error",
             fmt::format("{}{}", first_line(last_error_), has_good ? "  (what is shown is the last replay that worked)" : ""),
             &palette().bad);
+        widgets_.help(last_id_);
         return;
     }
     widgets_.text("command", model_.command_line(), &palette().dim);

@@ -12,10 +12,10 @@
 
 #include "ui/panel.h"
 #include "ui/picture/go_to_pixel.h"
-#include "ui/replayer/shader_reload.h"
+#include "ui/save_window.h"
+#include "ui/shader_reload.h"
 #include "ui/window/frame_rate.h"
 #include "ui/window/layout.h"
-#include "ui/window/save_window.h"
 #include "ui/window/theme.h"
 
 namespace strata::ui {
@@ -83,6 +83,7 @@ private:
     std::vector<LogLine> log_;
     double seconds_ = 0;
     std::string last_error_;  ///< that the log has
+    std::string last_id_;     ///< and its id with the values of its sentence
     std::string refusal_;
     double refusal_ends_ = 0;
     std::shared_ptr<const Replay> last_replay_;

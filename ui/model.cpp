@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "capture_format/reader.h"
+#include "passes/scene/scene_facts.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/session/choice_text.h"
 #include "replay/shell_word.h"
 

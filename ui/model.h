@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "passes/tolerance.h"
 #include "replay/session/session.h"
 #include "ui/replayer/replayer.h"
 #include "ui/window/imgui_layer.h"

@@ -20,7 +20,7 @@ std::span<const PanelRow> panels() {
         {"Pixel", Area::left, "the pinned pixel: after every step, its fragments, its transmittance, its tile", pixel_panel},
         {"Image", Area::center, "any output of any step, with the values of its texels", image_panel},
         {"Compare", Area::center, "two of: replays, expectation, truth, files; pictures and numbers", compare_panel},
-        {"Accuracy and cost", Area::center, "every method of a stage: its error against its cost; a click applies one",
+        {"Accuracy and cost", Area::center, "every technique of a stage: its error against its cost; a click applies one",
          cost_panel},
         {"Plan", Area::center, "which step writes and reads what, barriers, who shares memory, what was left out", plan_panel},
         {"Techniques", Area::right, "how each stage is done: technique, settings, forced features", techniques_panel},

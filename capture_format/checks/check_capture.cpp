@@ -20,8 +20,7 @@ Result<void> check_capture(const std::filesystem::path& path, std::uint64_t memo
     const auto capture = Capture::open(path, Partial::refused, memory_budget);
     if (!capture) return capture.error();
     for (std::size_t i = 0; i < capture->frame_count(); ++i)
-        if (const auto frame = capture->frame(i); !frame)
-            return fail_unnamed(frame.error().fault, "frame {}: {}", i, frame.error().sentence);
+        if (const auto frame = capture->frame(i); !frame) return within(frame.error(), "frame {frame}", i);
     return {};
 }
 

@@ -12,92 +12,97 @@ namespace {
 void inspect_projection(Inspection& inspection, const View& view) {
     const glm::mat4& p = view.projection;
     for (int column = 0; column < 4; ++column) {
-        inspection.expect(finite(p[column]), "the projection's column {} is not finite", column);
+        inspection.at({.kind = "view", .part = "projection column", .part_index = static_cast<std::size_t>(column)});
+        inspection.expect_finite("a number", p[column]);
     }
+    inspection.at({.kind = "view"});
     const bool zeros = p[0][1] == 0 && p[0][2] == 0 && p[0][3] == 0 && p[1][0] == 0 && p[1][2] == 0 && p[1][3] == 0 &&
                        p[2][2] == 0 && p[3][0] == 0 && p[3][1] == 0 && p[3][3] == 0;
-    inspection.expect(zeros && p[2][3] == 1,
+    inspection.expect(zeros && p[2][3] == 1, "frame.projection_form",
                       "the projection is not of the reversed infinite form (P00 x + P20 z, -(P11 y + P21 z), near, z)");
-    inspection.expect(p[0][0] > 0 && p[1][1] < 0, "the projection must keep x and flip y, not scale by {} and {}", p[0][0],
-                      p[1][1]);
-    inspection.expect(std::abs(p[3][2] - view.near) <= 1e-5f * view.near, "the projection's near plane is {}, the view's {}",
-                      p[3][2], view.near);
+    inspection.expect(p[0][0] > 0 && p[1][1] < 0, "frame.projection_flip",
+                      "the projection must keep x and flip y, not scale by {x} and {y}", p[0][0], p[1][1]);
+    inspection.expect(std::abs(p[3][2] - view.near) <= 1e-5f * view.near, "frame.near_planes",
+                      "the projection's near plane is at {projection_near} m, the view's at {near} m", p[3][2], view.near);
 }
 
 void inspect_view(Inspection& inspection, const View& view) {
     inspection.at({.kind = "view"});
-    inspection.expect(within(view.width, 1, largest_extent) && within(view.height, 1, largest_extent),
-                      "the extent must be 1 to {} pixels each way, not {} x {}", largest_extent, view.width, view.height);
-    inspection.expect(view.samples == 1 || view.samples == 4, "samples must be 1 or 4, not {}", view.samples);
-    inspection.expect(finite(view.origin), "the origin is not finite");
-    inspection.expect(positive(view.near), "the near plane must lie in front of the eye, not at {} m", view.near);
-    inspection.expect(positive(view.exposure), "the exposure must be above 0, not {}", view.exposure);
-    inspection.expect(within(view.jitter.x, -1, 1) && within(view.jitter.y, -1, 1), "the jitter must be -1 to 1 NDC");
+    inspection.expect_extent(view.width, view.height);
+    inspection.expect(view.samples == 1 || view.samples == 4, "frame.samples", "samples must be 1 or 4, not {samples}",
+                      view.samples);
+    inspection.expect_finite("origin", view.origin);
+    inspection.expect_positive("distance of the near plane in meters", view.near);
+    inspection.expect_positive("exposure", view.exposure);
+    inspection.expect_within("jitter x in NDC", view.jitter.x, -1, 1);
+    inspection.expect_within("jitter y in NDC", view.jitter.y, -1, 1);
     for (int i = 0; i < 3; ++i) {
         const int next = (i + 1) % 3;
         inspection.expect(finite(view.to_view[i]) && unit(view.to_view[i]) && perpendicular(view.to_view[i], view.to_view[next]),
-                          "to_view must be a rotation: its column {} is not unit or not perpendicular to the next", i);
+                          "frame.not_rotation",
+                          "to_view must be a rotation: column {column} is not unit or not perpendicular to the next", i);
     }
     inspect_projection(inspection, view);
 }
 
 void inspect_environment(Inspection& inspection, const Frame& frame) {
     inspection.at({.kind = "environment"});
-    inspection.expect(finite(frame.hemisphere.sky) && finite(frame.hemisphere.ground), "the hemisphere's light is not finite");
-    inspection.expect(finite(frame.background), "the background is not finite");
-    inspection.expect(finite(frame.fog.color), "the fog's color is not finite");
-    inspection.expect(positive_or_zero(frame.fog.density), "the fog's density must be 0 or above, not {}", frame.fog.density);
-    inspection.expect(known(frame.fog.path, FogPath::distance), "there is no path of fog {}",
-                      static_cast<std::uint32_t>(frame.fog.path));
-    inspection.expect(within(frame.rain.intensity, 0, 1), "the rain's intensity must be 0 to 1, not {}", frame.rain.intensity);
-    inspection.expect(within(frame.rain.wetness, 0, 1), "the wetness must be 0 to 1, not {}", frame.rain.wetness);
-    inspection.expect(finite(frame.rain.direction) && unit(frame.rain.direction), "the rain's direction must be unit");
+    inspection.expect_finite("hemisphere's sky", frame.hemisphere.sky);
+    inspection.expect_finite("hemisphere's ground", frame.hemisphere.ground);
+    inspection.expect_finite("background", frame.background);
+    inspection.expect_finite("fog color", frame.fog.color);
+    inspection.expect_not_negative("fog density", frame.fog.density);
+    inspection.expect_known("fog path", frame.fog.path, FogPath::distance);
+    inspection.expect_within("rain intensity", frame.rain.intensity, 0, 1);
+    inspection.expect_within("wetness", frame.rain.wetness, 0, 1);
+    inspection.expect_unit("rain direction", frame.rain.direction);
 }
 
 void inspect_camera(Inspection& inspection, const Lens& lens, const Film& film) {
     inspection.at({.kind = "camera"});
-    inspection.expect(positive_or_zero(lens.bloom), "bloom must be 0 or above, not {}", lens.bloom);
-    inspection.expect(positive_or_zero(lens.bloom_threshold), "the bloom threshold must be 0 or above, not {}",
-                      lens.bloom_threshold);
-    inspection.expect(positive_or_zero(lens.exposure_speed), "the exposure speed must be 0 or above, not {}",
-                      lens.exposure_speed);
-    inspection.expect(positive_or_zero(lens.focus_distance), "the focus distance must be 0 m or above, not {}",
-                      lens.focus_distance);
-    inspection.expect(positive_or_zero(lens.aperture), "the aperture must be 0 m or above, not {}", lens.aperture);
-    inspection.expect(positive_or_zero(film.grain), "the grain must be 0 or above, not {}", film.grain);
-    inspection.expect(positive_or_zero(film.fade), "the fade must be 0 or above, not {}", film.fade);
-    inspection.expect(positive(film.white), "the film's white must be above 0, not {}", film.white);
+    inspection.expect_not_negative("bloom", lens.bloom);
+    inspection.expect_not_negative("bloom threshold", lens.bloom_threshold);
+    inspection.expect_not_negative("exposure speed", lens.exposure_speed);
+    inspection.expect_not_negative("focus distance in meters", lens.focus_distance);
+    inspection.expect_not_negative("aperture in meters", lens.aperture);
+    inspection.expect_not_negative("grain", film.grain);
+    inspection.expect_not_negative("fade", film.fade);
+    inspection.expect_positive("film's white", film.white);
 }
 
 void inspect_choices(Inspection& inspection, const Frame& frame) {
     for (std::size_t i = 0; i < frame.recorded_with.size(); ++i) {
         const StageChoice& choice = frame.recorded_with[i];
         inspection.at({"stage choice", i, choice.stage});
-        inspection.expect(choice.stage.size() <= longest_text && choice.technique.size() <= longest_text,
-                          "names may have {} bytes", longest_text);
+        inspection.expect_name(choice.stage);
+        inspection.expect_name(choice.technique);
         for (const Setting& setting : choice.settings) {
-            const std::string* text = std::get_if<std::string>(&setting.value);
-            inspection.expect(setting.key.size() <= longest_text && (!text || text->size() <= longest_text),
-                              "keys and texts of settings may have {} bytes", longest_text);
-            const double* number = std::get_if<double>(&setting.value);
-            inspection.expect(!number || finite(*number), "setting '{}' is not finite", setting.key);
+            inspection.expect_name(setting.key);
+            if (const auto* text = std::get_if<std::string>(&setting.value)) inspection.expect_name(*text);
+            if (const auto* number = std::get_if<double>(&setting.value)) inspection.expect_finite(setting.key, *number);
         }
     }
 }
 
 }  // namespace
 
-Error Inspection::located(std::string_view sentence) const {
-    if (subject_.kind.empty()) return fail_unnamed(Fault::bad_input, "{}", sentence);
-    if (subject_.index == Subject::only_one) return fail_unnamed(Fault::bad_input, "{}: {}", subject_.kind, sentence);
-    if (subject_.name.empty()) return fail_unnamed(Fault::bad_input, "{} {}: {}", subject_.kind, subject_.index, sentence);
-    // A name may be far too long to print; that it is too long is said by the sentence.
-    return fail_unnamed(Fault::bad_input, "{} {} '{}': {}", subject_.kind, subject_.index, subject_.name.substr(0, 60), sentence);
+Error too_long_name(std::size_t bytes) {
+    return fail(Fault::bad_input, "frame.name_too_long", "a name or text of {bytes} bytes is too long; the limit is {most}",
+                bytes, longest_text);
+}
+
+Error Inspection::located(Error error) const {
+    if (!subject_.part.empty()) error = within(error, "{part} {part_number}", subject_.part, subject_.part_index);
+    if (subject_.kind.empty()) return error;
+    if (subject_.index == Subject::only_one) return within(error, "{subject}", subject_.kind);
+    if (subject_.name.empty()) return within(error, "{subject} {number}", subject_.kind, subject_.index);
+    // A name may be far too long to print; frame.name_too_long says that it is.
+    return within(error, "{subject} {number} '{name}'", subject_.kind, subject_.index, subject_.name.substr(0, 60));
 }
 
 Result<void> check_submissions(const Frame& frame, const ResourceShapes& resources) {
     Inspection inspection;
-    inspection.expect(finite(frame.time), "the frame's time is not finite");
+    inspection.expect_finite("time", frame.time);
     inspect_view(inspection, frame.view);
     inspect_environment(inspection, frame);
     inspect_camera(inspection, frame.lens, frame.film);

@@ -8,6 +8,7 @@
 
 #include "capture_format/clean_text.h"
 #include "capture_format/codec/stored_bits.h"
+#include "capture_format/frame.h"
 #include "capture_format/inspection.h"
 
 namespace strata {
@@ -73,7 +74,8 @@ template <typename T>
 std::vector<T> Decoder::stream(const schema::Blob& blob, std::string_view what) {
     if (error_ || blob.bytes() == 0) return {};
     if (blob.bytes() % sizeof(T) != 0) {
-        refuse(fail_unnamed(Fault::bad_input, "{} bytes are not whole {} of {} bytes", blob.bytes(), what, sizeof(T)));
+        refuse(fail(Fault::bad_input, "capture.frame.stream_size",
+                    "{bytes} bytes of {stream} are not a multiple of {element_bytes}", blob.bytes(), what, sizeof(T)));
         return {};
     }
     const auto found = blobs_.find({{blob.hash_low(), blob.hash_high()}, blob.bytes()});
@@ -88,7 +90,7 @@ std::vector<T> Decoder::stream(const schema::Blob& blob, std::string_view what) 
 
 std::string Decoder::text(const flatbuffers::String* stored) {
     if (!stored) return {};
-    if (stored->size() > longest_text) refuse(fail_unnamed(Fault::bad_input, "a name of {} bytes is too long", stored->size()));
+    if (stored->size() > longest_text) refuse(too_long_name(stored->size()));
     return error_ ? std::string() : clean_text({stored->c_str(), stored->size()});
 }
 
@@ -298,7 +300,7 @@ Setting Decoder::setting(const schema::Setting& table) {
             setting.value = text(table.text());
             break;
         default:
-            refuse(fail_unnamed(Fault::bad_input, "setting '{}' is of no known kind", setting.key));
+            refuse(fail(Fault::bad_input, "capture.frame.setting_kind", "setting '{setting}' has an unknown kind", setting.key));
     }
     return setting;
 }
@@ -370,13 +372,16 @@ std::uint64_t table_bytes(const schema::Frame& table) {
 Result<void> verify_frame(std::span<const std::byte> section) {
     // 2.0.8 asserts on larger ones; its offsets have 31 bits.
     if (section.size() >= FLATBUFFERS_MAX_BUFFER_SIZE)
-        return fail_unnamed(Fault::bad_input, "it has {} bytes, too many", section.size());
+        return fail(Fault::bad_input, "capture.frame.too_large", "the frame has {bytes} bytes; the limit is {most}",
+                    section.size(), FLATBUFFERS_MAX_BUFFER_SIZE - 1);
     flatbuffers::Verifier verifier(reinterpret_cast<const std::uint8_t*>(section.data()), section.size(), deepest_nesting,
                                    most_tables);
     if (!schema::VerifyFrameBuffer(verifier))
-        return fail_unnamed(Fault::bad_input, "it is not a frame of this format, or has too many parts");
+        return fail(Fault::bad_input, "capture.frame.not_a_frame",
+                    "the section is not a frame of this format, or has too many parts");
     if (bulk_bytes(*schema::GetFrame(section.data())) > largest_frame_bytes) {
-        return fail_unnamed(Fault::bad_input, "its resources take more than {} bytes", largest_frame_bytes);
+        return fail(Fault::bad_input, "capture.frame.resources_too_large", "the resources take more than {most} bytes",
+                    largest_frame_bytes);
     }
     return {};
 }

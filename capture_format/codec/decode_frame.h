@@ -6,10 +6,11 @@
 #include <span>
 
 #include "capture_format/container/blob_store.h"
-#include "capture_format/frame.h"
 #include "capture_format/result.h"
 
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
 
 /// Bulk bytes of one frame: a few kilobytes of hostile file may name the same blob a hundred thousand times.
 inline constexpr std::uint64_t largest_frame_bytes = std::uint64_t{4} << 30;

@@ -5,6 +5,13 @@
 #include <string>
 
 #include "capture_format/codec/stored_bits.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/light_volume.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
+#include "capture_format/frame/stage_choice.h"
+#include "capture_format/frame/texture.h"
 
 namespace strata {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "capture_format/codec/stored_resources.h"
 #include "capture_format/container/blob_store.h"
-#include "capture_format/frame.h"
 
 namespace strata {
 

@@ -197,11 +197,12 @@ std::vector<std::byte> FrameChain::pack(std::span<const std::byte> raw, std::int
 
 Result<std::uint32_t> FrameChain::reach(std::span<const std::byte> payload) {
     Header header{};
-    if (payload.size() < sizeof(header)) return fail_unnamed(Fault::bad_input, "it is too short for a frame");
+    if (payload.size() < sizeof(header))
+        return fail(Fault::bad_input, "capture.frame.too_short", "the section is too short for a frame");
     std::memcpy(&header, payload.data(), sizeof(header));
     if (header.reach >= frames_per_key) {
-        return fail_unnamed(Fault::bad_input, "it builds on {} frames before it; {} are the most", header.reach,
-                            frames_per_key - 1);
+        return fail(Fault::bad_input, "capture.frame.too_many_before",
+                    "the frame builds on {reach} frames before it; the limit is {most}", header.reach, frames_per_key - 1);
     }
     return header.reach;
 }
@@ -223,12 +224,15 @@ Result<std::vector<FrameChain::Run>> read_runs(std::span<const std::byte> stored
     std::uint64_t sum = 0;
     for (const FrameChain::Run& run : runs) {
         if (run.from != FrameChain::nowhere && (run.from > before || run.words > before - run.from)) {
-            return fail_unnamed(Fault::bad_input, "it continues words {} and {} more of a frame of {}", run.from, run.words,
-                                before);
+            return fail(Fault::bad_input, "capture.frame.run_range",
+                        "a run of words starts at word {from} and has {words} words, in a frame of {frame_words}", run.from,
+                        run.words, before);
         }
         sum += run.words;
     }
-    if (sum != now) return fail_unnamed(Fault::bad_input, "its {} runs make {} words of {}", runs.size(), sum, now);
+    if (sum != now)
+        return fail(Fault::bad_input, "capture.frame.run_sum",
+                    "the {runs} runs have {words} words together; the frame has {frame_words}", runs.size(), sum, now);
     return runs;
 }
 
@@ -238,19 +242,24 @@ Result<void> FrameChain::continue_with(std::span<const std::byte> payload, std::
     const Result<std::uint32_t> needed = reach(payload);
     if (!needed) return needed.error();
     if (*needed == 0) clear();
-    if (*needed != reach_) return fail_unnamed(Fault::bad_input, "it builds on {} frames and comes after {}", *needed, reach_);
+    if (*needed != reach_)
+        return fail(Fault::bad_input, "capture.frame.order", "the frame builds on {reach} frames before it, but follows {frames}",
+                    *needed, reach_);
     Header header{};
     std::memcpy(&header, payload.data(), sizeof(header));
     payload = payload.subspan(sizeof(header));
     if (raw_bytes > largest_frame_section || raw_bytes % sizeof(std::uint64_t) != 0) {
-        return fail_unnamed(Fault::bad_input, "it claims {} bytes; frames have whole words and up to {}", raw_bytes,
-                            largest_frame_section);
+        return fail(Fault::bad_input, "capture.frame.claimed_size",
+                    "the section claims {bytes} bytes; a frame has whole words of 8 bytes and at most {most} bytes", raw_bytes,
+                    largest_frame_section);
     }
     const std::uint64_t runs_bytes = std::uint64_t{header.runs} * sizeof(Run);
-    if (runs_bytes > payload.size()) return fail_unnamed(Fault::bad_input, "it is too short for its {} runs", header.runs);
+    if (runs_bytes > payload.size())
+        return fail(Fault::bad_input, "capture.frame.runs_cut", "the section is too short for its {runs} runs", header.runs);
     const std::span<const std::byte> packed = payload.subspan(runs_bytes);
     if (ZSTD_getFrameContentSize(packed.data(), packed.size()) != raw_bytes) {
-        return fail_unnamed(Fault::bad_input, "it holds no zstd frame of {} bytes", raw_bytes);
+        return fail(Fault::bad_input, "capture.section.zstd_size", "the section does not hold a zstd frame of {bytes} bytes",
+                    raw_bytes);
     }
     const std::size_t count = raw_bytes / sizeof(std::uint64_t);
     if (*needed > 0) {
@@ -261,8 +270,8 @@ Result<void> FrameChain::continue_with(std::span<const std::byte> payload, std::
     std::vector<std::byte> sorted(raw_bytes);
     const std::size_t written = ZSTD_decompress(sorted.data(), sorted.size(), packed.data(), packed.size());
     if (written != sorted.size()) {
-        return fail_unnamed(Fault::bad_input, "it does not decompress: {}",
-                            ZSTD_isError(written) ? ZSTD_getErrorName(written) : "it ends early");
+        return fail(Fault::bad_input, "capture.section.decompress", "the section does not decompress: {reason}",
+                    ZSTD_isError(written) ? ZSTD_getErrorName(written) : "it ends early");
     }
     forecast(count, header.echo);
     Words words(count);
@@ -272,7 +281,7 @@ Result<void> FrameChain::continue_with(std::span<const std::byte> payload, std::
         words[word] = forecast_[word] + unzigzag(folded);
     });
     if (XXH3_64bits(words.data(), raw_bytes) != header.hash)
-        return fail_unnamed(Fault::bad_input, "it is not the frame that was recorded");
+        return fail(Fault::bad_input, "capture.frame.hash", "the frame is not the one that was recorded: its hash is wrong");
     remember(std::move(words));
     return {};
 }

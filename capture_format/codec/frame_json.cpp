@@ -69,7 +69,8 @@ Result<std::string> frame_json(const Frame& frame) {
     const std::vector<std::byte> encoded = encode_frame(frame, blobs);
     JsonWriter writer;
     flatbuffers::IterateFlatBuffer(reinterpret_cast<const std::uint8_t*>(encoded.data()), schema::FrameTypeTable(), &writer);
-    if (!writer.names_are_good) return fail_unnamed(Fault::bad_input, "a name in the frame is no UTF-8, which JSON cannot hold");
+    if (!writer.names_are_good)
+        return fail(Fault::bad_input, "capture.frame.name_utf8", "a name in the frame is not UTF-8, which JSON cannot hold");
     return writer.text + "\n";
 }
 

@@ -3,10 +3,11 @@
 
 #include <string>
 
-#include "capture_format/frame.h"
 #include "capture_format/result.h"
 
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
 
 /// One object per table of schema/capture.fbs, `flatc` reads it back to the same bits: numbers have as many digits as that
 /// takes. Bulk data (texels, positions, particles) is named by hash and size, as in the file; hashes are 64-bit integers, which

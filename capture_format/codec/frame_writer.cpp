@@ -36,15 +36,19 @@ ResourceShapes shapes_of(const StoredResources& resources) {
     return shapes;
 }
 
+/// What a reader would refuse as bad input is a mistake of the application that records it.
 Error refused(std::uint64_t number, const Error& why) {
-    return fail_unnamed(Fault::usage, "frame {} cannot be recorded: {}", number, why.sentence);
+    Error error = within(why, "frame {frame} cannot be recorded", number);
+    error.fault = Fault::usage;
+    return error;
 }
 
 }  // namespace
 
 Result<FrameWriter> FrameWriter::create(const std::filesystem::path& path, std::string_view notes) {
     if (notes.size() > longest_notes) {
-        return fail_unnamed(Fault::usage, "notes of {} bytes are too long; {} are the most", notes.size(), longest_notes);
+        return fail(Fault::usage, "record.notes_too_long", "notes of {bytes} bytes are too long; the limit is {most}",
+                    notes.size(), longest_notes);
     }
     Result<ContainerWriter> file = ContainerWriter::create(path);
     if (!file) return file.error();
@@ -121,8 +125,9 @@ Result<void> FrameWriter::write(const Frame& frame, const StoredResources& resou
     // What could not be read back is not written.
     if (const Result<void> verified = verify_frame(flatbuffer); !verified) return refused(number, verified.error());
     if (flatbuffer.size() > largest_frame_section) {
-        return fail_unnamed(Fault::usage, "frame {} cannot be recorded: it takes {} bytes without its resources; {} are the most",
-                            number, flatbuffer.size(), largest_frame_section);
+        return fail(Fault::usage, "record.frame_too_large",
+                    "frame {frame} cannot be recorded: it takes {bytes} bytes without its resources; the limit is {most}", number,
+                    flatbuffer.size(), largest_frame_section);
     }
     if (const Result<void> written = write_blobs(); !written) return written;
     const auto runs = chain_.newest().empty() ? std::vector<FrameChain::Run>() : draw_runs(chain_.newest(), flatbuffer);

@@ -13,7 +13,6 @@
 #include "capture_format/codec/stored_resources.h"
 #include "capture_format/container/blob_store.h"
 #include "capture_format/container/container.h"
-#include "capture_format/frame.h"
 #include "capture_format/result.h"
 
 namespace strata {

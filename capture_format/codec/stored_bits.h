@@ -5,7 +5,12 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/light_volume.h"
+#include "capture_format/frame/particles.h"
+#include "capture_format/frame/texture.h"
+#include "capture_format/frame/weather.h"
+#include "capture_format/light_types.h"
 #include "capture_format/schema/capture_generated.h"
 
 namespace strata {
@@ -30,7 +35,7 @@ static_assert(static_cast<unsigned>(schema::LightingModel::MAX) == static_cast<u
 static_assert(static_cast<unsigned>(schema::AlphaMode::MAX) == static_cast<unsigned>(AlphaMode::additive));
 static_assert(static_cast<unsigned>(schema::Mobility::MAX) == static_cast<unsigned>(Mobility::moving));
 static_assert(static_cast<unsigned>(schema::Resolution::MAX) == static_cast<unsigned>(Resolution::low));
-static_assert(static_cast<unsigned>(schema::LightType::MAX) == static_cast<unsigned>(LightType::directional));
+static_assert(static_cast<unsigned>(schema::LightType::MAX) == static_cast<unsigned>(last_light_type));
 static_assert(static_cast<unsigned>(schema::FogPath::MAX) == static_cast<unsigned>(FogPath::distance));
 static_assert(static_cast<unsigned>(schema::VolumeKind::MAX) == static_cast<unsigned>(VolumeKind::fixed_local));
 static_assert(static_cast<unsigned>(schema::VolumeOcclusion::MAX) == static_cast<unsigned>(VolumeOcclusion::axial));

@@ -2,6 +2,10 @@
 #include "capture_format/codec/stored_resources.h"
 
 #include "capture_format/codec/texture_bytes.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/texture.h"
 
 namespace strata {
 

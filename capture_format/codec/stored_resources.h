@@ -6,9 +6,13 @@
 #include <vector>
 
 #include "capture_format/container/blob_store.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/texture.h"
 
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
+struct Mesh;   // capture_format/frame/mesh.h
 
 struct StoredTexture {
     Texture texture;  ///< without texels

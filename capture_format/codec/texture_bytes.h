@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/texture.h"
 
 namespace strata {
 

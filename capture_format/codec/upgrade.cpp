@@ -7,6 +7,8 @@
 
 #include <array>
 
+#include "capture_format/frame.h"
+
 namespace strata {
 namespace {
 
@@ -19,11 +21,11 @@ constexpr std::array<UpgradeStep, format_version - 1> steps = {{
 
 std::span<const UpgradeStep> upgrade_steps() { return steps; }
 
-Result<void> check_format_version(std::uint32_t version, std::string_view path) {
+Result<void> check_format_version(std::uint32_t version) {
     if (version >= 1 && version <= format_version) return {};
-    return fail_unnamed(Fault::bad_input, "{} has frames of format version {}; this program reads 1 to {}: {}", path, version,
-                        format_version,
-                        version > format_version ? "open it with a newer strata" : "it was not written by strata");
+    return fail(Fault::bad_input, "capture.frame.version",
+                "the frame has format version {version}; this program reads 1 to {newest}: {advice}", version, format_version,
+                version > format_version ? "open it with a newer strata" : "it was not written by strata");
 }
 
 Frame upgrade(Frame frame, std::uint32_t version, std::span<const UpgradeStep> table) {

@@ -5,10 +5,11 @@
 #include <span>
 #include <string_view>
 
-#include "capture_format/frame.h"
 #include "capture_format/result.h"
 
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
 
 /// The version of frame sections this program writes.
 inline constexpr std::uint32_t format_version = 2;
@@ -20,8 +21,8 @@ struct UpgradeStep {
 };
 std::span<const UpgradeStep> upgrade_steps();
 
-/// Fails for a version this program does not know. `path` is for the sentence.
-Result<void> check_format_version(std::uint32_t version, std::string_view path);
+/// Fails for a version this program does not know.
+Result<void> check_format_version(std::uint32_t version);
 
 /// Takes a frame of the given version through all later steps of the table.
 Frame upgrade(Frame, std::uint32_t version, std::span<const UpgradeStep> steps = upgrade_steps());

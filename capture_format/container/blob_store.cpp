@@ -98,8 +98,9 @@ Result<std::vector<PackedBlobs>> BlobCollector::pack() {
         auto last = first;
         for (; last != pending.end() && last->blob.bytes <= largest_blobs_section - bytes; ++last) bytes += last->blob.bytes;
         if (last == first) {
-            return fail_unnamed(Fault::usage, "a resource of {} bytes is too large for a capture, which takes up to {} at once",
-                                first->blob.bytes, largest_blobs_section);
+            return fail(Fault::usage, "record.resource_too_large",
+                        "a resource of {bytes} bytes is too large for a capture; the limit is {most}", first->blob.bytes,
+                        largest_blobs_section);
         }
         packed.push_back(pack({first, last}));
         first = last;
@@ -187,22 +188,24 @@ Result<void> BlobStore::read_index(std::size_t number) {
     const Section& section = container_->sections()[number];
     const std::uint32_t version = section.type == SectionType::blobs ? section.version : 1;
     if (version < 1 || version > blobs_version) {
-        return fail_unnamed(Fault::bad_input, "{} has version {}; this program reads 1 to {}: {}",
-                            container_->whereabouts(number), version, blobs_version,
-                            version > blobs_version ? "open it with a newer strata" : "it was not written by strata");
+        return container_->located(
+            number, fail(Fault::bad_input, "capture.blobs.version",
+                         "the section has version {version}; this program reads 1 to {newest}: {advice}", version, blobs_version,
+                         version > blobs_version ? "open it with a newer strata" : "it was not written by strata"));
     }
     const std::size_t each = entry_bytes(version);
     if (section.raw_bytes > largest_blobs_section) {
-        return fail_unnamed(Fault::bad_input, "{} claims {} bytes; a capture's sections have up to {}",
-                            container_->whereabouts(number), section.raw_bytes, largest_blobs_section);
+        return container_->located(
+            number, fail(Fault::bad_input, "capture.blobs.too_large", "the section claims {bytes} bytes; the limit is {most}",
+                         section.raw_bytes, largest_blobs_section));
     }
     const auto stored = container_->stored(number);
     if (!stored) return stored.error();
     std::uint64_t count = 0;
     if (stored->size() >= sizeof(count)) std::memcpy(&count, stored->data(), sizeof(count));
     if (stored->size() < sizeof(count) || count > (stored->size() - sizeof(count)) / each) {
-        return fail_unnamed(Fault::bad_input, "{} is too short for its index of {} blobs", container_->whereabouts(number),
-                            count);
+        return container_->located(number, fail(Fault::bad_input, "capture.blobs.index_cut",
+                                                "the section is too short for its index of {blobs} blobs", count));
     }
     BlobsSection blobs{.number = number, .index_bytes = sizeof(count) + count * each};
     std::uint64_t filtered_bytes = 0;
@@ -219,7 +222,8 @@ Result<void> BlobStore::read_index(std::size_t number) {
         filtered_bytes += entry.filtered_bytes;
     }
     if (blobs.blobs.size() != count || filtered_bytes != section.raw_bytes) {
-        return fail_unnamed(Fault::bad_input, "{} does not hold the bytes its index lists", container_->whereabouts(number));
+        return container_->located(
+            number, fail(Fault::bad_input, "capture.blobs.index", "the section does not hold the bytes its index lists"));
     }
     raw_bytes_ += blobs.raw_bytes;
     stored_bytes_ += section.stored_bytes;
@@ -243,13 +247,14 @@ Result<void> BlobStore::decompress(BlobsSection& blobs) {
         const Blob& blob = blobs.blobs[i];
         const std::span<std::byte> bytes(raw.get() + offset, blob.bytes);
         if (!plain && !undo_filter({unpacked->get() + filtered_offset, blob.filtered_bytes}, blob.filter, bytes)) {
-            return fail_unnamed(Fault::bad_input,
-                                "{}: blob {} is rearranged in a way that this program does not know; open it with a newer strata",
-                                container_->whereabouts(blobs.number), i);
+            return container_->located(
+                blobs.number,
+                fail(Fault::bad_input, "capture.blob.filter",
+                     "blob {blob} is rearranged in a way that this program does not know; open it with a newer strata", i));
         }
         if (blob_hash(bytes) != blob.hash) {
-            return fail_unnamed(Fault::bad_input, "{}: blob {} is not what its hash says", container_->whereabouts(blobs.number),
-                                i);
+            return container_->located(blobs.number,
+                                       fail(Fault::bad_input, "capture.blob.hash", "blob {blob} does not match its hash", i));
         }
         offset += blob.bytes;
         filtered_offset += blob.filtered_bytes;
@@ -267,14 +272,15 @@ Result<std::unique_ptr<std::byte[]>> BlobStore::unpack(const BlobsSection& blobs
     const std::uint64_t raw_bytes = container_->sections()[blobs.number].raw_bytes;
     // Only a frame that states the size the section states is worth allocating for.
     if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != raw_bytes) {
-        return fail_unnamed(Fault::bad_input, "{} is not a zstd frame of {} bytes", container_->whereabouts(blobs.number),
-                            raw_bytes);
+        return container_->located(blobs.number, fail(Fault::bad_input, "capture.section.zstd_size",
+                                                      "the section does not hold a zstd frame of {bytes} bytes", raw_bytes));
     }
     auto raw = std::make_unique_for_overwrite<std::byte[]>(raw_bytes);  // clearing it takes as long as undoing a filter
     const std::size_t written = ZSTD_decompress(raw.get(), raw_bytes, frame.data(), frame.size());
     if (written != raw_bytes) {
-        return fail_unnamed(Fault::bad_input, "{} does not decompress: {}", container_->whereabouts(blobs.number),
-                            ZSTD_isError(written) ? ZSTD_getErrorName(written) : "it ends early");
+        return container_->located(
+            blobs.number, fail(Fault::bad_input, "capture.section.decompress", "the section does not decompress: {reason}",
+                               ZSTD_isError(written) ? ZSTD_getErrorName(written) : "it ends early"));
     }
     return raw;
 }
@@ -283,7 +289,8 @@ Result<std::span<const std::byte>> BlobStore::find(const BlobName& blob) {
     if (blob.bytes == 0) return std::span<const std::byte>();
     const auto place = places_.find(blob.hash);
     if (place == places_.end() || place->second.bytes != blob.bytes) {
-        return fail_unnamed(Fault::bad_input, "the file lacks blob {} of {} bytes", text(blob.hash), blob.bytes);
+        return fail(Fault::bad_input, "capture.blob.missing", "the file lacks blob {hash} of {bytes} bytes", text(blob.hash),
+                    blob.bytes);
     }
     BlobsSection& section = sections_[place->second.section];
     section.used = true;

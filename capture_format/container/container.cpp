@@ -73,6 +73,10 @@ std::span<const std::byte> bytes_of(const T& value) {
 
 std::uint64_t seal_of(const Prefix& prefix) { return xxh3(bytes_of(prefix).first(offsetof(Prefix, seal))); }
 
+Error wrong_checksum() {
+    return fail(Fault::bad_input, "capture.section.checksum", "the section is damaged: its checksum is wrong");
+}
+
 Section section_of(const Prefix& prefix, std::uint64_t offset) {
     return {offset, SectionType{prefix.type}, prefix.version, prefix.stored_bytes, prefix.raw_bytes, prefix.checksum};
 }
@@ -145,11 +149,13 @@ Result<T> Container::value(std::uint64_t offset) const {
 Result<void> Container::read_header() {
     const Result<Header> header = file_bytes_ < sizeof(Header) ? Result<Header>(Header{}) : value<Header>(0);
     if (!header) return header.error();
-    if (header->magic != magic) return fail_unnamed(Fault::bad_input, "{} is not a capture: it does not begin like one", name_);
+    if (header->magic != magic)
+        return fail(Fault::bad_input, "capture.not_a_capture", "{file} is not a capture: it does not begin like one", name_);
     if (header->version != container_version || header->flags != 0) {
-        return fail_unnamed(Fault::bad_input,
-                            "{} has container version {} and flags {:#x}; this program reads version {} without flags", name_,
-                            header->version, header->flags, container_version);
+        return fail(
+            Fault::bad_input, "capture.container_version",
+            "{file} has container version {version} and flags {flags:#x}; this program reads version {readable} without flags",
+            name_, header->version, header->flags, container_version);
     }
     version_ = header->version;
     return {};
@@ -191,40 +197,40 @@ Result<bool> Container::read_directory() {
 /// Finds the whole sections one after the other. What is only half there ends the file.
 Result<void> Container::scan() {
     std::uint64_t at = sizeof(Header);
-    const auto stop = [&](std::string_view why) -> Result<void> {
-        damage_ =
-            fail_unnamed(Fault::bad_input, "{} is cut short or overwritten: section {} at offset {} {}; {} bytes are in the file",
-                         name_, sections_.size(), at, why, file_bytes_);
+    const auto stop = [&](const Error& why) -> Result<void> {
+        damage_ = within(why, "{file} is cut short or overwritten: section {section} at offset {offset} of {bytes} bytes", name_,
+                         sections_.size(), at, file_bytes_);
         return {};
     };
     while (at != file_bytes_) {
-        if (file_bytes_ - at < sizeof(Prefix)) return stop("ends within its header");
+        if (file_bytes_ - at < sizeof(Prefix))
+            return stop(fail(Fault::bad_input, "capture.section.header_cut", "the file ends within the section's header"));
         const auto prefix = value<Prefix>(at);
         if (!prefix) return prefix.error();
-        if (prefix->mark != mark || prefix->seal != seal_of(*prefix)) return stop("has a damaged header");
+        if (prefix->mark != mark || prefix->seal != seal_of(*prefix))
+            return stop(fail(Fault::bad_input, "capture.section.header_damaged", "the section's header is damaged"));
         const Section section = section_of(*prefix, at);
         if (!fits(section, file_bytes_)) {
-            return stop(fmt::format("({}) needs {} bytes and ends before", name(section.type), section.stored_bytes));
+            return stop(fail(Fault::bad_input, "capture.section.cut",
+                             "the {kind} section needs {needed_bytes} bytes and ends before", name(section.type),
+                             section.stored_bytes));
         }
         const auto payload = bytes(at + sizeof(Prefix), section.stored_bytes);
         if (!payload) return payload.error();
-        if (xxh3(*payload) != section.checksum) {
-            return stop(fmt::format("({}) is damaged: its checksum is wrong", name(section.type)));
-        }
+        if (xxh3(*payload) != section.checksum) return stop(wrong_checksum());
         sections_.push_back(section);
         at = end_of(section);
     }
-    damage_ =
-        fail_unnamed(Fault::bad_input, "{} has no directory: its writer was stopped after section {}, or it was cut at offset {}",
-                     name_, sections_.size(), at);
+    damage_ = fail(Fault::bad_input, "capture.no_directory",
+                   "{file} has no directory: its writer was stopped after section {sections}, or it was cut at offset {offset}",
+                   name_, sections_.size(), at);
     return {};
 }
 
 Result<std::vector<std::byte>> Container::stored(std::size_t index) const {
     const Section& section = sections_[index];
     auto payload = bytes(section.offset + sizeof(Prefix), section.stored_bytes);
-    if (payload && xxh3(*payload) != section.checksum)
-        return fail_unnamed(Fault::bad_input, "{} is damaged: its checksum is wrong", whereabouts(index));
+    if (payload && xxh3(*payload) != section.checksum) return located(index, wrong_checksum());
     return payload;
 }
 
@@ -235,15 +241,23 @@ Result<void> Container::check_bytes() const {
         if (!header) return header.error();
         const Prefix expected = prefix_of(section);
         if (!std::ranges::equal(*header, bytes_of(expected)))
-            return fail_unnamed(Fault::bad_input, "{} is damaged: its header is not the one in the directory", whereabouts(i));
+            return located(i, fail(Fault::bad_input, "capture.section.header",
+                                   "the section is damaged: its header is not the one in the directory"));
         if (const auto payload = stored(i); !payload) return payload.error();
         const std::uint64_t end = section.offset + sizeof(Prefix) + section.stored_bytes;
         const auto padding = bytes(end, end_of(section) - end);
         if (!padding) return padding.error();
         if (std::ranges::any_of(*padding, [](std::byte byte) { return byte != std::byte{0}; }))
-            return fail_unnamed(Fault::bad_input, "{} is damaged: the padding behind it is not zero", whereabouts(i));
+            return located(i, fail(Fault::bad_input, "capture.section.padding",
+                                   "the section is damaged: the padding behind it is not zero"));
     }
     return {};
+}
+
+Error Container::located(std::size_t index, const Error& error) const {
+    const Section& section = sections_[index];
+    return within(error, "{file}: section {section} ({kind}) at offset {offset}", name_, index, name(section.type),
+                  section.offset);
 }
 
 std::string Container::whereabouts(std::size_t index) const {

@@ -51,7 +51,9 @@ public:
     /// Every byte of the file: headers are those of the directory, padding is zero, checksums are right. open() believes a
     /// directory whose own checksum is right.
     Result<void> check_bytes() const;
-    /// "smoke.strata: section 2 (blobs) at offset 4096", for errors.
+    /// The error of a section with where that is.
+    Error located(std::size_t section, const Error&) const;
+    /// "smoke.strata: section 2 (blobs) at offset 4096".
     std::string whereabouts(std::size_t section) const;
     std::uint64_t file_bytes() const { return file_bytes_; }
     std::uint32_t version() const { return version_; }

@@ -35,19 +35,20 @@ Result<void> check_is_file(const std::filesystem::path& path) {
     struct stat status {
     }, null{};
     if (::stat(path.c_str(), &status) != 0)
-        return fail_unnamed(Fault::bad_input, "cannot open {}: {}", path.string(), system_words());
+        return fail(Fault::bad_input, "file.cannot_open", "cannot open {file}: {reason}", path.string(), system_words());
     const bool is_null = ::stat("/dev/null", &null) == 0 && is_same_file(status, null);
     return S_ISREG(status.st_mode) || is_null ? Result<void>()
-                                              : fail_unnamed(Fault::bad_input, "{} is not a file", path.string());
+                                              : fail(Fault::bad_input, "file.not_a_file", "{file} is not a file", path.string());
 }
 
 Result<ReadableFile> ReadableFile::open(const std::filesystem::path& path) {
     Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));  // of a pipe it would wait for a writer
-    if (file.number() < 0) return fail_unnamed(Fault::bad_input, "cannot open {}: {}", path.string(), system_words());
+    if (file.number() < 0)
+        return fail(Fault::bad_input, "file.cannot_open", "cannot open {file}: {reason}", path.string(), system_words());
     struct stat status {};
     if (::fstat(file.number(), &status) != 0)
-        return fail_unnamed(Fault::bad_input, "cannot read {}: {}", path.string(), system_words());
-    if (!S_ISREG(status.st_mode)) return fail_unnamed(Fault::bad_input, "{} is not a file", path.string());
+        return fail(Fault::bad_input, "file.cannot_read", "cannot read {file}: {reason}", path.string(), system_words());
+    if (!S_ISREG(status.st_mode)) return fail(Fault::bad_input, "file.not_a_file", "{file} is not a file", path.string());
     return ReadableFile(path.string(), std::move(file), static_cast<std::uint64_t>(status.st_size));
 }
 
@@ -56,10 +57,13 @@ Result<std::vector<std::byte>> ReadableFile::read(std::uint64_t offset, std::uin
     for (std::uint64_t done = 0; done < bytes;) {
         const ssize_t got = uninterrupted(
             [&] { return ::pread(descriptor_.number(), all.data() + done, bytes - done, static_cast<off_t>(offset + done)); });
-        if (got < 0) return fail_unnamed(Fault::bad_input, "cannot read {}: {}", path_, system_words());
+        if (got < 0) return fail(Fault::bad_input, "file.cannot_read", "cannot read {file}: {reason}", path_, system_words());
         if (got == 0) {
-            return fail_unnamed(Fault::bad_input, "{} was shortened while it was read: it had {} bytes and ends at {} now", path_,
-                                size_, offset + done);
+            struct stat now {};
+            const bool known = ::fstat(descriptor_.number(), &now) == 0;
+            return fail(Fault::bad_input, "file.shortened",
+                        "{file} was shortened while it was read: it had {bytes} bytes and has {end} now", path_, size_,
+                        known ? static_cast<std::uint64_t>(now.st_size) : offset + done);
         }
         done += static_cast<std::uint64_t>(got);
     }
@@ -71,9 +75,10 @@ Result<FileLock> FileLock::take(const std::filesystem::path& path) {
         // Some network file systems lock only what is open for writing.
         const int access = ::access(path.c_str(), W_OK) == 0 ? O_RDWR : O_RDONLY;
         FileLock lock(path, Descriptor(::open(path.c_str(), access | O_CLOEXEC | O_NONBLOCK)));
-        if (lock.descriptor_.number() < 0) return fail_unnamed(Fault::usage, "cannot open {}: {}", path.string(), system_words());
+        if (lock.descriptor_.number() < 0)
+            return fail(Fault::usage, "file.cannot_lock", "cannot lock {file}: {reason}", path.string(), system_words());
         if (uninterrupted([&] { return ::flock(lock.descriptor_.number(), LOCK_EX); }) != 0)
-            return fail_unnamed(Fault::usage, "cannot lock {}: {}", path.string(), system_words());
+            return fail(Fault::usage, "file.cannot_lock", "cannot lock {file}: {reason}", path.string(), system_words());
         if (lock.is_current()) return lock;
     }
 }
@@ -86,7 +91,8 @@ bool FileLock::is_current() const {
 
 Result<GrowingFile> GrowingFile::open(const std::filesystem::path& path, int flags) {
     Descriptor descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666));
-    if (descriptor.number() < 0) return fail_unnamed(Fault::usage, "cannot write {}: {}", path.string(), system_words());
+    if (descriptor.number() < 0)
+        return fail(Fault::usage, "file.cannot_write", "cannot write {file}: {reason}", path.string(), system_words());
     struct stat status {};
     const bool known = ::fstat(descriptor.number(), &status) == 0;
     return GrowingFile(path.string(), std::move(descriptor), known ? static_cast<std::uint64_t>(status.st_size) : 0);
@@ -99,7 +105,7 @@ Result<GrowingFile> GrowingFile::extend(const std::filesystem::path& path) { ret
 Result<void> GrowingFile::append(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const ssize_t written = uninterrupted([&] { return ::write(descriptor_.number(), bytes.data(), bytes.size()); });
-        if (written < 0) return fail_unnamed(Fault::usage, "cannot write {}: {}", path_, system_words());
+        if (written < 0) return fail(Fault::usage, "file.cannot_write", "cannot write {file}: {reason}", path_, system_words());
         size_ += static_cast<std::uint64_t>(written);
         bytes = bytes.subspan(static_cast<std::size_t>(written));
     }

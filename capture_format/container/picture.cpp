@@ -46,7 +46,8 @@ Result<std::vector<std::byte>> encode_picture(const Texture& picture) {
     const bool rgba8 = picture.format == TextureFormat::rgba8_unorm || picture.format == TextureFormat::rgba8_srgb;
     if (!rgba8 || picture.mips != 1 || !fits(picture.width, picture.height) ||
         picture.texels.size() != texel_bytes * picture.width * picture.height) {
-        return fail_unnamed(Fault::usage, "a thumbnail is RGBA8 with one mip and 1 to {} texels each way", largest_picture_edge);
+        return fail(Fault::usage, "record.thumbnail", "a thumbnail must be RGBA8 with one mip and 1 to {most} texels each way",
+                    largest_picture_edge);
     }
     const std::vector<std::byte> filtered = rearranged(picture.texels, texel_filter);
     const std::uint32_t extent[] = {picture.width, picture.height};
@@ -68,7 +69,8 @@ Result<Texture> decode_picture(std::span<const std::byte> payload, std::uint32_t
     if (fits(extent[0], extent[1]))
         picture.texels = unpacked(payload.subspan(sizeof extent), texel_bytes * extent[0] * extent[1], version);
     if (picture.texels.empty())
-        return fail_unnamed(Fault::bad_input, "the thumbnail is no picture of 1 to {} texels each way", largest_picture_edge);
+        return fail(Fault::bad_input, "capture.thumbnail", "the thumbnail is not a picture of 1 to {most} texels each way",
+                    largest_picture_edge);
     return picture;
 }
 

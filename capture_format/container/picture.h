@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/texture.h"
 #include "capture_format/result.h"
 
 namespace strata {

@@ -32,7 +32,8 @@ std::vector<std::filesystem::path>& kept_files() {
 }
 
 Error unwritable(const std::filesystem::path& path, int problem) {
-    return fail_unnamed(Fault::usage, "cannot write {}: {}", path.string(), std::generic_category().message(problem));
+    return fail(Fault::usage, "file.cannot_write", "cannot write {file}: {reason}", path.string(),
+                std::generic_category().message(problem));
 }
 
 /// An empty file beside the target that was not there before, so that nobody's link is followed.
@@ -99,8 +100,8 @@ Result<void> check_not_kept(const std::filesystem::path& path) {
     const std::scoped_lock held(lock);
     for (const std::filesystem::path& kept : kept_files()) {
         if (std::filesystem::equivalent(kept, path, none))
-            return fail_unnamed(Fault::usage, "cannot write {}: it is the input {}. Choose another output", path.string(),
-                                kept.string());
+            return fail(Fault::usage, "file.is_input", "cannot write {file}: it is the input {input}. Choose another output",
+                        path.string(), kept.string());
     }
     return {};
 }
@@ -211,7 +212,8 @@ Result<void> leave_nothing_half_written_when_stopped() {
         }).detach();
         waits = true;
     } catch (const std::system_error& refused) {
-        return fail_unnamed(Fault::device_lacks, "this machine starts no thread: {}", refused.what());
+        return fail(Fault::device_lacks, "machine.no_thread", "this machine cannot start another thread: {reason}",
+                    refused.what());
     }
     return {};
 }

@@ -10,6 +10,11 @@
 #include "capture_format/export/gltf_losses.h"
 #include "capture_format/export/gltf_parts.h"
 #include "capture_format/export/gltf_surfaces.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/light_types.h"
 
 namespace strata {
 namespace {
@@ -123,9 +128,9 @@ private:
         for (const Light& light : frame_.lights) {
             if (!to_gltf_parts::is_punctual(light)) continue;
             Json json = {{"name", light.name}, {"type", "point"}};
-            if (light.type == LightType::directional) json["type"] = "directional";
-            if (light.type != LightType::directional) json["range"] = light.range;
-            if (light.type == LightType::round_spot) {
+            if (!has_range(light.type)) json["type"] = "directional";
+            if (has_range(light.type)) json["range"] = light.range;
+            if (is_spot(light.type)) {
                 json["type"] = "spot";
                 json["spot"] = {{"innerConeAngle", light.inner_angle}, {"outerConeAngle", light.outer_angle}};
             }
@@ -170,7 +175,8 @@ private:
 Result<ExportedScene> to_gltf(const Frame& frame) {
     ExportedScene scene = SceneExport(frame).run();
     if (scene.glb.size() > 0xffffffffu) {
-        return fail_unnamed(Fault::usage, "the frame takes {} bytes as glTF, and a .glb holds 4 GiB", scene.glb.size());
+        return fail(Fault::usage, "export.gltf.too_large", "the frame takes {bytes} bytes as glTF; a .glb holds at most 4 GiB",
+                    scene.glb.size());
     }
     return scene;
 }

@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "capture_format/frame.h"
 #include "capture_format/result.h"
 
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
 
 struct ExportedScene {
     std::vector<std::byte> glb;

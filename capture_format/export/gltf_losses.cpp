@@ -1,9 +1,18 @@
 #include "capture_format/export/gltf_losses.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <string_view>
 
 #include <fmt/core.h>
+
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/light_volume.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
+#include "capture_format/frame/stage_choice.h"
+#include "capture_format/light_types.h"
 
 namespace strata::to_gltf_parts {
 namespace {
@@ -94,8 +103,8 @@ void add_picture(Losses& losses, const Frame& frame) {
 }  // namespace
 
 bool is_punctual(const Light& light) {
-    const bool shape =
-        light.type == LightType::omni || light.type == LightType::round_spot || light.type == LightType::directional;
+    const LightTypeFacts& facts = facts_of(light.type);
+    const bool shape = (facts.shape == LightShape::point && facts.cone != LightCone::square) || !has_range(light.type);
     return shape && glm::all(glm::greaterThanEqual(light.intensity, glm::vec3(0)));
 }
 

@@ -4,7 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "capture_format/frame.h"
+namespace strata {
+
+struct Frame;  // capture_format/frame.h
+struct Light;  // capture_format/frame/light.h
+
+}  // namespace strata
 
 namespace strata::to_gltf_parts {
 

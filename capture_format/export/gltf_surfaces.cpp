@@ -8,6 +8,9 @@
 #include "capture_format/codec/texture_mips.h"
 #include "capture_format/export/gltf_glass.h"
 #include "capture_format/export/png.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/texture.h"
 #include "capture_format/srgb.h"
 
 namespace strata::to_gltf_parts {

@@ -5,8 +5,17 @@
 #include <string>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 #include "capture_format/export/gltf_parts.h"
-#include "capture_format/frame.h"
+
+namespace strata {
+
+struct Frame;       // capture_format/frame.h
+struct Material;    // capture_format/frame/material.h
+struct TextureUse;  // capture_format/frame/material.h
+
+}  // namespace strata
 
 namespace strata::to_gltf_parts {
 

@@ -14,6 +14,10 @@
 
 #include "capture_format/container/file.h"
 #include "capture_format/container/picture.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
 #include "capture_format/import/deep_triangles.h"
 #include "capture_format/inspection.h"
 #include "capture_format/memory_budget.h"
@@ -25,7 +29,7 @@ namespace {
 /// meshes, rearranged, and compressed.
 constexpr std::uint64_t bytes_per_fragment = 3 * 3 * (sizeof(glm::vec3) + sizeof(glm::vec4) + sizeof(std::uint32_t));
 
-constexpr DeepLayer grey[] = {{"deep samples", glm::vec3(0)}};
+constexpr DeepLayer gray[] = {{"deep samples", glm::vec3(0)}};
 // A sample that hides red, green and blue differently is three at one depth: channels do not know of each other.
 constexpr DeepLayer chromatic[] = {{"deep samples, red", glm::vec3(0, 1, 1)},
                                    {"deep samples, green", glm::vec3(1, 0, 1)},
@@ -62,12 +66,13 @@ public:
           options_(options),
           window_(options.window.value_or(file.display_window())),
           read_(options.window.value_or(file.data_window())),
-          layers_(is_chromatic() ? std::span<const DeepLayer>(chromatic) : grey) {}
+          layers_(is_chromatic() ? std::span<const DeepLayer>(chromatic) : gray) {}
 
     Result<ImportedDeep> run() {
         if (window_.width < 1 || window_.height < 1 || window_.width > largest_extent || window_.height > largest_extent)
-            return fail_unnamed(Fault::usage, "a window has 1 to {} pixels each way, not {} x {}", largest_extent, window_.width,
-                                window_.height);
+            return fail(Fault::usage, "import.deep.window_size",
+                        "a window has 1 to {most} pixels each way, not {width} x {height}", largest_extent, window_.width,
+                        window_.height);
         const auto count = file_.count_samples(read_, options_.most_samples);
         if (!count) return count.error();
         MemoryBudget budget(options_.memory_budget);
@@ -228,7 +233,7 @@ private:
         const bool red = file_.has(DeepChannel::red), green = file_.has(DeepChannel::green), blue = file_.has(DeepChannel::blue);
         std::vector<std::string>& warnings = result_.warnings;
         if (!red && !green && !blue)
-            warnings.emplace_back(file_.has(DeepChannel::grey) ? "there is no color: Y is taken for all three channels"
+            warnings.emplace_back(file_.has(DeepChannel::gray) ? "there is no color: Y is taken for all three channels"
                                                                : "there is no color: the samples are black");
         else if (!red || !green || !blue) warnings.emplace_back("color channels are missing: they are black");
         if (!file_.has(DeepChannel::alpha) && !is_chromatic()) warnings.emplace_back("there is no alpha: every sample is opaque");
@@ -252,7 +257,7 @@ Result<ImportedDeep> import_deep(std::span<const std::byte> bytes, std::string_v
     const auto file = DeepFile::open(bytes, name, options.part);
     if (!file) return file.error();
     auto imported = DeepImport(*file, options).run();
-    if (!imported) return fail_unnamed(imported.error().fault, "{}: {}", name, imported.error().sentence);
+    if (!imported) return within(imported.error(), "{file}", name);
     return imported;
 }
 

@@ -32,13 +32,12 @@ float read_value(exr_pixel_type_t type, const std::byte* from) {
 
 void DeepBlock::Storage::Free::operator()(libdeflate_decompressor* freed) const { libdeflate_free_decompressor(freed); }
 
-Error DeepFile::damaged(const BlockLocation& place, std::string_view what) {
-    return fail_unnamed(Fault::bad_input, "the block of pixels at ({}, {}) {}", place.window.x, place.window.y, what);
+Error DeepFile::damaged(const BlockLocation& place, const Error& error) {
+    return within(error, "the block of pixels at ({x}, {y})", place.window.x, place.window.y);
 }
 
 Result<void> DeepFile::unpack(std::span<const std::byte> packed, std::vector<std::byte>& unpacked,
                               DeepBlock::Storage& storage) const {
-    const Error wrong = fail_unnamed(Fault::bad_input, "does not unpack to the {} bytes it claims", unpacked.size());
     if (packed.size() == unpacked.size()) {
         std::ranges::copy(packed, unpacked.begin());
         return {};
@@ -50,7 +49,9 @@ Result<void> DeepFile::unpack(std::span<const std::byte> packed, std::vector<std
         if (!storage.inflater) storage.inflater.reset(libdeflate_alloc_decompressor());
         good = unpack_deflate(*storage.inflater, packed, storage.deltas);
     }
-    if (!good) return wrong;
+    if (!good)
+        return fail(Fault::bad_input, "import.deep.unpack",
+                    "the samples do not unpack to the {bytes} bytes that the block claims", unpacked.size());
     undo_deltas(storage.deltas, unpacked);
     return {};
 }
@@ -63,7 +64,8 @@ Result<void> DeepFile::unpack_table(const BlockLocation& place, DeepBlock::Stora
         storage.counts.resize(size);
         if (unpack(place.counts, storage.counts, storage)) return {};
     }
-    return damaged(place, fmt::format("has a table of counts that does not unpack to its {} pixels", pixels));
+    return damaged(place, fail(Fault::bad_input, "import.deep.count_table",
+                               "the table of counts does not unpack to {pixels} pixels", pixels));
 }
 
 Result<void> DeepFile::unpack_counts(const BlockLocation& place, DeepBlock& block) const {
@@ -77,12 +79,15 @@ Result<void> DeepFile::unpack_counts(const BlockLocation& place, DeepBlock& bloc
     for (std::size_t i = 0; i < pixels; ++i) {
         if (i % place.window.width == 0) before = block.begin[i];
         const std::uint64_t end = before + read_uint(&block.storage.counts[i * 4]);
-        if (end < block.begin[i] || end > 0xffffffffu) return damaged(place, "counts its samples backwards");
+        if (end < block.begin[i] || end > 0xffffffffu)
+            return damaged(place,
+                           fail(Fault::bad_input, "import.deep.counts_decrease", "the running sums of sample counts decrease"));
         block.begin[i + 1] = static_cast<std::uint32_t>(end);
     }
     if (block.begin[pixels] * sample_bytes_ != place.unpacked)
-        return damaged(place, fmt::format("counts {} samples of {} bytes but claims {} bytes of them", block.begin[pixels],
-                                          sample_bytes_, place.unpacked));
+        return damaged(place, fail(Fault::bad_input, "import.deep.claimed_bytes",
+                                   "the block counts {samples} samples of {sample_bytes} bytes but claims {bytes} bytes",
+                                   block.begin[pixels], sample_bytes_, place.unpacked));
     return {};
 }
 
@@ -94,7 +99,9 @@ Result<std::uint64_t> DeepFile::count_samples(const DeepWindow& window, std::uin
         if (const auto done = unpack_counts(place, block); !done) return done.error();
         sum += block.begin.back();
     }
-    if (sum > most) return fail_unnamed(Fault::bad_input, "there are {} samples; {} are the most", sum, most);
+    if (sum > most)
+        return fail(Fault::bad_input, "import.deep.too_many_samples", "the image has {samples} samples; the limit is {most}", sum,
+                    most);
     return sum;
 }
 
@@ -102,10 +109,11 @@ Result<DeepBlock> DeepFile::read(std::size_t index, DeepBlock reused) const {
     const BlockLocation& place = blocks_[index];
     if (const auto done = unpack_counts(place, reused); !done) return done.error();
     if (place.unpacked > place.samples.size() * largest_expansion)
-        return damaged(place, fmt::format("claims {} bytes of samples in {} bytes", place.unpacked, place.samples.size()));
+        return damaged(place, fail(Fault::bad_input, "import.deep.expansion",
+                                   "the block claims {bytes} bytes of samples in {packed_bytes} bytes", place.unpacked,
+                                   place.samples.size()));
     reused.storage.bytes.resize(place.unpacked);
-    if (const auto done = unpack(place.samples, reused.storage.bytes, reused.storage); !done)
-        return damaged(place, done.error().sentence);
+    if (const auto done = unpack(place.samples, reused.storage.bytes, reused.storage); !done) return damaged(place, done.error());
     set_planes(reused);
     return reused;
 }
@@ -143,7 +151,7 @@ void DeepFile::set_planes(DeepBlock& block) const {
     constexpr DeepChannel colors[] = {DeepChannel::red, DeepChannel::green, DeepChannel::blue};
     constexpr DeepChannel alphas[] = {DeepChannel::alpha_red, DeepChannel::alpha_green, DeepChannel::alpha_blue};
     const bool colored = has(DeepChannel::red) || has(DeepChannel::green) || has(DeepChannel::blue);
-    block.color.fill(!colored && has(DeepChannel::grey) ? named(DeepChannel::grey) : filled(0, 0));
+    block.color.fill(!colored && has(DeepChannel::gray) ? named(DeepChannel::gray) : filled(0, 0));
     block.alpha.fill(has(DeepChannel::alpha) ? named(DeepChannel::alpha) : filled(1, 1));
     for (std::size_t c = 0; c < 3; ++c) {
         if (has(colors[c])) block.color[c] = named(colors[c]);

@@ -19,7 +19,7 @@ struct libdeflate_decompressor;
 namespace strata {
 
 /// What a sample may have: the channels of these names. `count_` is how many there are.
-enum class DeepChannel : std::uint32_t { red, green, blue, alpha, alpha_red, alpha_green, alpha_blue, grey, depth, back, count_ };
+enum class DeepChannel : std::uint32_t { red, green, blue, alpha, alpha_red, alpha_green, alpha_blue, gray, depth, back, count_ };
 
 /// The samples of a scan line or a tile. Planes hold one float per sample, pixel after pixel; missing channels are filled in:
 /// color from Y or black, alpha from A or 1, the back from Z. Plane 0, 1, 2 is red, green, blue.
@@ -81,7 +81,7 @@ private:
     Result<void> unpack(std::span<const std::byte> packed, std::vector<std::byte>& unpacked, DeepBlock::Storage&) const;
     void set_planes(DeepBlock&) const;
     std::span<const float> plane(DeepBlock&, std::size_t channel) const;
-    static Error damaged(const BlockLocation&, std::string_view what);
+    static Error damaged(const BlockLocation&, const Error&);
 
     DeepWindow data_, display_;
     std::uint32_t compression_ = 0, deep_parts_ = 0;

@@ -48,8 +48,9 @@ struct Context {
 Result<DeepWindow> window_of(const exr_attr_box2i_t& box, std::string_view what) {
     const std::int64_t width = std::int64_t{box.max.x} - box.min.x + 1, height = std::int64_t{box.max.y} - box.min.y + 1;
     if (width < 1 || height < 1 || width > largest_extent || height > largest_extent)
-        return fail_unnamed(Fault::bad_input, "its {} window has {} x {} pixels; 1 to {} each way can be read", what, width,
-                            height, largest_extent);
+        return fail(Fault::bad_input, "import.deep.image_size",
+                    "the {window} window has {width} x {height} pixels; 1 to {most} each way can be read", what, width, height,
+                    largest_extent);
     return DeepWindow{box.min.x, box.min.y, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
 }
 
@@ -73,16 +74,17 @@ struct DeepFile::Opening {
         initializer.max_tile_width = initializer.max_tile_height = static_cast<int>(largest_extent);
         initializer.flags = EXR_CONTEXT_FLAG_SILENT_HEADER_PARSE | EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
         const exr_result_t opened = exr_start_read(&context.handle, file_name.c_str(), &initializer);
-        if (opened != EXR_ERR_SUCCESS) return said(opened, "it is no OpenEXR file that can be read");
+        if (opened != EXR_ERR_SUCCESS)
+            return fail(Fault::bad_input, "import.deep.not_openexr", "the file is not a readable OpenEXR file: {reason}",
+                        reason(opened));
         if (const auto done = find_part(wanted); !done) return done;
         if (const auto done = read_header(); !done) return done;
         if (const auto done = read_channels(); !done) return done;
         return tiled() ? place_tiles() : place_lines();
     }
 
-    Error said(exr_result_t code, std::string_view what) const {
-        return fail_unnamed(Fault::bad_input, "{}: {}", what,
-                            stream.problem.empty() ? exr_get_default_error_message(code) : stream.problem.c_str());
+    const char* reason(exr_result_t code) const {
+        return stream.problem.empty() ? exr_get_default_error_message(code) : stream.problem.c_str();
     }
 
     bool is_deep(int index) const {
@@ -114,8 +116,10 @@ struct DeepFile::Opening {
             known += fmt::format("{}{} '{:.60}'", known.empty() ? "" : ", ", number, name_of(i));
             if (found < 0 && (wanted.empty() || wanted == number || wanted == name_of(i))) found = i;
         }
-        if (file.deep_parts_ == 0) return fail_unnamed(Fault::bad_input, "none of its parts is deep");
-        if (found < 0) return fail_unnamed(Fault::usage, "there is no deep part '{}'; its deep parts are {}", wanted, known);
+        if (file.deep_parts_ == 0) return fail(Fault::bad_input, "import.deep.no_deep_part", "the file has no deep part");
+        if (found < 0)
+            return fail(Fault::usage, "import.deep.part_missing", "there is no deep part '{part}'; the deep parts are {parts}",
+                        wanted, known);
         part = found;
         return {};
     }
@@ -133,8 +137,9 @@ struct DeepFile::Opening {
         file.display_ = *display_window;
         if (compression != EXR_COMPRESSION_NONE && compression != EXR_COMPRESSION_RLE && compression != EXR_COMPRESSION_ZIPS &&
             compression != EXR_COMPRESSION_ZIP)
-            return fail_unnamed(Fault::bad_input, "deep images are packed by NONE, RLE or ZIPS, not by compression {}",
-                                static_cast<int>(compression));
+            return fail(Fault::bad_input, "import.deep.compression",
+                        "deep images are compressed with NONE, RLE, ZIPS or ZIP, not with compression {compression}",
+                        static_cast<int>(compression));
         file.compression_ = compression;
         return {};
     }
@@ -142,14 +147,15 @@ struct DeepFile::Opening {
     Result<void> read_channels() {
         const exr_attr_chlist_t* list = nullptr;
         if (exr_get_channels(context.handle, part, &list) != EXR_ERR_SUCCESS || list == nullptr)
-            return fail_unnamed(Fault::bad_input, "it has no list of channels");
+            return fail(Fault::bad_input, "import.deep.no_channel_list", "the part has no list of channels");
         file.source_.fill(-1);
         std::string names;
         for (int i = 0; i < list->num_channels; ++i) {
             const exr_attr_chlist_entry_t& channel = list->entries[i];
             const std::string_view name(channel.name.str, static_cast<std::size_t>(channel.name.length));
             if (channel.x_sampling != 1 || channel.y_sampling != 1)
-                return fail_unnamed(Fault::bad_input, "channel '{:.60}' does not have a value for every sample", name);
+                return fail(Fault::bad_input, "import.deep.channel_sampling",
+                            "channel '{channel:.60}' does not have a value for every sample", name);
             const auto known = std::ranges::find(channel_names, name);
             if (known == std::end(channel_names)) file.ignored_.push_back(fmt::format("{:.60}", name));
             else file.source_[static_cast<std::size_t>(known - channel_names)] = i;
@@ -158,7 +164,8 @@ struct DeepFile::Opening {
             names += fmt::format("{}{:.60}", names.empty() ? "" : " ", name);
         }
         if (!file.has(DeepChannel::depth))
-            return fail_unnamed(Fault::bad_input, "it has no channel Z; its channels are {:.200}", names);
+            return fail(Fault::bad_input, "import.deep.no_depth", "the part has no channel Z; its channels are {channels:.200}",
+                        names);
         return {};
     }
 
@@ -167,7 +174,8 @@ struct DeepFile::Opening {
             exr_chunk_info_t chunk{};
             const int y = file.data_.y + static_cast<int>(line);
             const exr_result_t found = exr_read_scanline_chunk_info(context.handle, part, y, &chunk);
-            if (found != EXR_ERR_SUCCESS || chunk.height < 1) return said(found, fmt::format("line {} cannot be found", y));
+            if (found != EXR_ERR_SUCCESS || chunk.height < 1)
+                return fail(Fault::bad_input, "import.deep.line_missing", "line {y} cannot be found: {reason}", y, reason(found));
             const auto height = std::min(static_cast<std::uint32_t>(chunk.height), file.data_.height - line);
             const DeepWindow window{file.data_.x, y, file.data_.width, height};
             if (const auto done = add(window, std::uint64_t{window.width} * height, chunk); !done) return done;
@@ -180,7 +188,8 @@ struct DeepFile::Opening {
     Result<void> place_tiles() {
         std::int32_t width = 0, height = 0;
         const exr_result_t sized = exr_get_tile_sizes(context.handle, part, 0, 0, &width, &height);
-        if (sized != EXR_ERR_SUCCESS || width < 1 || height < 1) return said(sized, "its tiles have no size");
+        if (sized != EXR_ERR_SUCCESS || width < 1 || height < 1)
+            return fail(Fault::bad_input, "import.deep.tile_size", "the tiles have no size: {reason}", reason(sized));
         const DeepWindow& data = file.data_;
         const auto tile_width = static_cast<std::uint32_t>(width), tile_height = static_cast<std::uint32_t>(height);
         for (std::uint32_t y = 0; y < data.height; y += tile_height)
@@ -188,7 +197,9 @@ struct DeepFile::Opening {
                 const auto column = static_cast<int>(x / tile_width), row = static_cast<int>(y / tile_height);
                 exr_chunk_info_t chunk{};
                 const exr_result_t found = exr_read_tile_chunk_info(context.handle, part, column, row, 0, 0, &chunk);
-                if (found != EXR_ERR_SUCCESS) return said(found, fmt::format("tile ({}, {}) cannot be found", column, row));
+                if (found != EXR_ERR_SUCCESS)
+                    return fail(Fault::bad_input, "import.deep.tile_missing", "tile ({column}, {row}) cannot be found: {reason}",
+                                column, row, reason(found));
                 const DeepWindow window{data.x + static_cast<int>(x), data.y + static_cast<int>(y),
                                         std::min(tile_width, data.width - x), std::min(tile_height, data.height - y)};
                 if (const auto done = add(window, std::uint64_t{tile_width} * tile_height, chunk); !done) return done;
@@ -204,8 +215,8 @@ struct DeepFile::Opening {
         const auto counts = part_of_file(chunk.sample_count_data_offset, chunk.sample_count_table_size);
         const auto samples = part_of_file(chunk.data_offset, chunk.packed_size);
         if (!counts || !samples)
-            return fail_unnamed(Fault::bad_input, "the block of pixels at ({}, {}) lies beyond the end of the file", window.x,
-                                window.y);
+            return fail(Fault::bad_input, "import.deep.block_range",
+                        "the block of pixels at ({x}, {y}) lies beyond the end of the file", window.x, window.y);
         file.blocks_.push_back({window, table_pixels, *counts, *samples, chunk.unpacked_size});
         return {};
     }
@@ -214,8 +225,7 @@ struct DeepFile::Opening {
 Result<DeepFile> DeepFile::open(std::span<const std::byte> bytes, std::string_view name, std::string_view part) {
     DeepFile file;
     Opening opening{file, std::string(name), {bytes, {}}, {}};
-    if (const auto done = opening.run(part); !done)
-        return fail_unnamed(done.error().fault, "{}: {}", name, done.error().sentence);
+    if (const auto done = opening.run(part); !done) return within(done.error(), "{file}", name);
     return file;
 }
 

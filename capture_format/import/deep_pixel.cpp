@@ -136,9 +136,9 @@ std::vector<DeepSample> without_overlaps(const std::vector<DeepSample>& samples)
 
 Result<void> check_cuts(const DeepCensus& census) {
     if (census.cuts <= most_cuts) return {};
-    return fail_unnamed(Fault::bad_input,
-                        "its volumes overlap too often: separating them takes up to {} cuts, and at most {} are made",
-                        census.cuts, most_cuts);
+    return fail(Fault::bad_input, "import.deep.overlap",
+                "volumes overlap too often: separating them takes up to {cuts} cuts; the limit is {most}", census.cuts,
+                most_cuts);
 }
 
 Result<std::vector<DeepSample>> pixel_samples(const DeepBlock& block, std::size_t pixel, DeepCensus& census) {

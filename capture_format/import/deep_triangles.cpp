@@ -13,7 +13,7 @@ namespace {
 /// that no rounding of a vertex or of the rasterizer decides what is covered.
 constexpr std::array<glm::dvec2, 3> corners = {{{.8604, -.2404}, {-.4087, .6061}, {1.2512, 1.3509}}};
 
-/// Events below both are dropped by every technique (docs/algorithms/transparency.md 0.2).
+/// Fragments below both are dropped by every technique (docs/algorithms/transparency.md 0.2).
 constexpr double least_alpha = 1e-5;
 
 /// Keeps the room of the lists.

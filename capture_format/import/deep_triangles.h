@@ -12,7 +12,6 @@
 #include <glm/glm.hpp>
 
 #include "capture_format/container/picture.h"
-#include "capture_format/frame.h"
 #include "capture_format/import/deep.h"
 #include "capture_format/import/deep_file.h"
 #include "capture_format/import/deep_pixel.h"

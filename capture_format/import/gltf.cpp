@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "capture_format/frame.h"
 #include "capture_format/import/gltf_files.h"
 #include "capture_format/import/gltf_frame.h"
 #include "capture_format/import/gltf_load.h"
@@ -9,31 +10,36 @@
 namespace strata {
 namespace {
 
+Error two_cameras(std::string_view option, std::string_view other) {
+    return fail(Fault::usage, "import.gltf.two_cameras", "{option} and {other} each choose the camera: pass one of them", option,
+                other);
+}
+
 Result<void> check(const GltfOptions& options) {
     const double azimuth = options.azimuth.value_or(0), elevation = options.elevation.value_or(0);
     if (!(std::abs(azimuth) <= 360 && std::abs(elevation) < 90)) {
-        return fail_unnamed(Fault::usage,
-                            "--azimuth takes -360 to 360 degrees and --elevation more than -90 and less than 90, not {} and {}",
-                            azimuth, elevation);
+        return fail(Fault::usage, "import.gltf.orbit_range",
+                    "--azimuth must be -360 to 360 degrees and --elevation between -90 and 90, not {azimuth} and {elevation}",
+                    azimuth, elevation);
     }
     if ((options.azimuth || options.elevation) && (options.eye || options.inside))
-        return fail_unnamed(Fault::usage,
-                            "--azimuth and --elevation place a camera outside of the scene; {} places another: choose one",
-                            options.eye ? "--eye" : "--inside");
-    if (options.target && !options.eye) return fail_unnamed(Fault::usage, "a target needs an eye to be looked at from (--eye)");
+        return two_cameras("--azimuth or --elevation", options.eye ? "--eye" : "--inside");
+    if (options.target && !options.eye)
+        return fail(Fault::usage, "import.gltf.target_without_eye", "--target needs --eye, the place to look from");
     if (options.eye && (options.inside || options.camera >= 0))
-        return fail_unnamed(Fault::usage, "--eye places the camera; --inside and --camera do so, too: choose one");
-    if (options.inside && options.camera >= 0) return fail_unnamed(Fault::usage, "choose a camera of the file or --inside");
+        return two_cameras("--eye", options.inside ? "--inside" : "--camera");
+    if (options.inside && options.camera >= 0) return two_cameras("--camera", "--inside");
     if (options.eye && options.target && *options.eye == *options.target)
-        return fail_unnamed(Fault::usage, "the eye cannot look at the place where it is");
+        return fail(Fault::usage, "import.gltf.eye_is_target", "the eye and its target are the same point");
     if (options.fov && !(*options.fov >= 1 && *options.fov <= 170))
-        return fail_unnamed(Fault::usage, "a field of view has 1 to 170 degrees, not {}", *options.fov);
+        return fail(Fault::usage, "import.gltf.fov_range", "the field of view must be 1 to 170 degrees, not {fov}", *options.fov);
     if (options.width == 0 || options.height == 0 || (options.samples != 1 && options.samples != 4)) {
-        return fail_unnamed(Fault::usage, "{} x {} pixels with {} samples cannot be rendered", options.width, options.height,
-                            options.samples);
+        return fail(Fault::usage, "import.gltf.extent", "{width} x {height} pixels with {samples} samples cannot be rendered",
+                    options.width, options.height, options.samples);
     }
     if (options.fps && !(*options.fps > 0 && *options.fps <= 1e6)) {
-        return fail_unnamed(Fault::usage, "frames per second must be above 0 and at most 1000000, not {}", *options.fps);
+        return fail(Fault::usage, "import.gltf.fps_range", "frames per second must be above 0 and at most 1000000, not {fps}",
+                    *options.fps);
     }
     return {};
 }
@@ -60,11 +66,11 @@ Result<GltfScene> GltfScene::read(std::vector<std::byte> bytes, const gltf::Fold
     if (const auto room = budget.take(bytes.size(), 1, "the file"); !room) return room.error();
     auto document = gltf::load_document(std::move(bytes), folder, budget);
     if (!document && document.error().fault == Fault::device_lacks)  // nothing is known to be wrong with the file
-        return fail_unnamed(Fault::device_lacks, "{}: {}", name, document.error().sentence);
-    if (!document) return fail_unnamed(document.error().fault, "{} is no readable glTF: {}", name, document.error().sentence);
+        return within(document.error(), "{file}", name);
+    if (!document) return within(document.error(), "{file} is not a readable glTF", name);
     auto contents = std::make_unique<Contents>(std::move(name), *std::move(document), options, budget);
     if (const auto read = contents->source.read(); !read) {
-        return fail_unnamed(read.error().fault, "{}: {}", contents->name, read.error().sentence);
+        return within(read.error(), "{file}", contents->name);
     }
     return GltfScene(std::move(contents));
 }
@@ -82,7 +88,7 @@ Result<GltfScene> GltfScene::open(std::span<const std::byte> bytes, const std::s
 
 Result<Frame> GltfScene::frame(std::uint32_t index) {
     auto frame = contents_->source.frame(index);
-    if (!frame) return fail_unnamed(frame.error().fault, "{}: {}", contents_->name, frame.error().sentence);
+    if (!frame) return within(frame.error(), "{file}", contents_->name);
     return frame;
 }
 

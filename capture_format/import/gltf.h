@@ -26,7 +26,7 @@ struct GltfOptions {
     std::int32_t camera = -1;  ///< index of a glTF camera; -1: the first, or a framing camera when there is none
     /// Degrees from the front (+z) towards the right (+x), and above the horizon: where the framing camera stands.
     std::optional<double> azimuth, elevation;  ///< default 22 and 16
-    /// Where the eye is and what it looks at, in metres, instead of any camera; without a target the middle of the scene.
+    /// Where the eye is and what it looks at, in meters, instead of any camera; without a target the middle of the scene.
     std::optional<glm::dvec3> eye, target;
     /// Degrees from the bottom to the top of the picture, of all but the file's cameras; without it as the view needs.
     std::optional<double> fov;

@@ -5,6 +5,8 @@
 #include <span>
 #include <string_view>
 
+#include "capture_format/import/gltf_check.h"
+
 namespace strata::gltf {
 namespace {
 
@@ -21,10 +23,10 @@ struct Layout {
 
 Result<Elements> locate(const Document& document, const Layout& layout) {
     if (layout.view < 0 || static_cast<std::size_t>(layout.view) >= document.views.size()) {
-        return fail_unnamed(Fault::bad_input, "buffer view {} does not exist (there are {})", layout.view, document.views.size());
+        return no_such("buffer view", layout.view, document.views.size());
     }
     const BufferView& view = document.views[static_cast<std::size_t>(layout.view)];
-    if (!view.content.fault.empty()) return fail_unnamed(Fault::bad_input, "{}", view.content.fault);
+    if (view.content.fault) return *view.content.fault;
     const std::size_t stride = view.stride == 0 ? layout.element_bytes : view.stride;
     if (layout.count == 0) return Elements{{}, stride, 0};
     const std::size_t length = view.content.bytes.size();
@@ -32,8 +34,10 @@ Result<Elements> locate(const Document& document, const Layout& layout) {
                         length - layout.offset >= layout.element_bytes &&
                         layout.count - 1 <= (length - layout.offset - layout.element_bytes) / stride;
     if (!inside) {
-        return fail_unnamed(Fault::bad_input, "{} elements of {} bytes, {} apart from byte {}, leave buffer view {} of {} bytes",
-                            layout.count, layout.element_bytes, stride, layout.offset, layout.view, length);
+        return fail(Fault::bad_input, "import.gltf.accessor_range",
+                    "the accessor needs {elements} elements x {element_bytes} bytes (stride {stride}, offset {offset}), beyond "
+                    "the end of buffer view {view} ({view_bytes} bytes)",
+                    layout.count, layout.element_bytes, stride, layout.offset, layout.view, length);
     }
     return Elements{view.content.bytes.subspan(layout.offset), stride, layout.count};
 }
@@ -109,15 +113,17 @@ std::uint32_t components_of(std::string_view type) {
 
 Result<const Accessor*> find_accessor(const Document& document, int index, std::uint32_t components) {
     if (index < 0 || static_cast<std::size_t>(index) >= document.accessors.size()) {
-        return fail_unnamed(Fault::bad_input, "accessor {} does not exist (there are {})", index, document.accessors.size());
+        return no_such("accessor", index, document.accessors.size());
     }
     const Accessor& accessor = document.accessors[static_cast<std::size_t>(index)];
     if (components_of(accessor.type) != components) {
-        return fail_unnamed(Fault::bad_input, "accessor {} is a '{:.20}', which has not the {} components expected", index,
-                            accessor.type, components);
+        return fail(Fault::bad_input, "import.gltf.accessor_type",
+                    "accessor {accessor} is a '{type:.20}', which does not have {components} components", index, accessor.type,
+                    components);
     }
     if (component_bytes(accessor.component_type) == 0) {
-        return fail_unnamed(Fault::bad_input, "accessor {} has unknown component type {}", index, accessor.component_type);
+        return fail(Fault::bad_input, "import.gltf.component_type",
+                    "accessor {accessor} has unknown component type {component_type}", index, accessor.component_type);
     }
     return &accessor;
 }
@@ -132,10 +138,13 @@ Result<Replacements> read_replacements(const Document& document, const Accessor&
                                        MemoryBudget& budget) {
     const Sparse& sparse = *accessor.sparse;
     if (!is_index_type(sparse.indices_type)) {
-        return fail_unnamed(Fault::bad_input, "its sparse indices have component type {}", sparse.indices_type);
+        return fail(Fault::bad_input, "import.gltf.sparse_index_type",
+                    "the sparse indices have component type {component_type}, which is not an unsigned integer",
+                    sparse.indices_type);
     }
     if (sparse.count > accessor.count) {
-        return fail_unnamed(Fault::bad_input, "it replaces {} of its {} elements", sparse.count, accessor.count);
+        return fail(Fault::bad_input, "import.gltf.sparse_count",
+                    "the sparse accessor replaces {replaced} of its {elements} elements", sparse.count, accessor.count);
     }
     const auto where =
         locate(document, {sparse.indices_view, sparse.indices_offset, sparse.count, component_bytes(sparse.indices_type)});
@@ -148,8 +157,9 @@ Result<Replacements> read_replacements(const Document& document, const Accessor&
     for (std::size_t i = 0; i < where->count; ++i) {
         replacements.places.push_back(index_value(where->bytes.data() + i * where->stride, sparse.indices_type));
         if (replacements.places.back() >= accessor.count) {
-            return fail_unnamed(Fault::bad_input, "a sparse accessor replaces element {} of {}", replacements.places.back(),
-                                accessor.count);
+            return fail(Fault::bad_input, "import.gltf.sparse_range",
+                        "the sparse accessor replaces element {element} of {elements}", replacements.places.back(),
+                        accessor.count);
         }
     }
     return replacements;
@@ -195,7 +205,7 @@ Result<std::vector<float>> read_floats(const Document& document, int index, std:
     if (!found) return found.error();
     const Accessor& accessor = **found;
     if (const auto good = check_claim(document, accessor, sizeof(float) * components, budget); !good) {
-        return fail_unnamed(good.error().fault, "accessor {}: {}", index, good.error().sentence);
+        return within(good.error(), "accessor {accessor}", index);
     }
     const std::size_t size = component_bytes(accessor.component_type);
     std::vector<float> values(accessor.count * components, 0.0f);
@@ -204,7 +214,7 @@ Result<std::vector<float>> read_floats(const Document& document, int index, std:
             values[place * components + c] = component(bytes + c * size, accessor.component_type, accessor.normalized);
         }
     });
-    if (!read) return fail_unnamed(read.error().fault, "accessor {}: {}", index, read.error().sentence);
+    if (!read) return within(read.error(), "accessor {accessor}", index);
     return values;
 }
 
@@ -213,15 +223,15 @@ Result<std::vector<std::uint32_t>> read_indices(const Document& document, int in
     if (!found) return found.error();
     const Accessor& accessor = **found;
     if (!is_index_type(accessor.component_type))
-        return fail_unnamed(Fault::bad_input, "accessor {} holds no unsigned integers", index);
+        return fail(Fault::bad_input, "import.gltf.index_type", "accessor {accessor} does not hold unsigned integers", index);
     if (const auto good = check_claim(document, accessor, sizeof(std::uint32_t), budget); !good) {
-        return fail_unnamed(good.error().fault, "accessor {}: {}", index, good.error().sentence);
+        return within(good.error(), "accessor {accessor}", index);
     }
     std::vector<std::uint32_t> indices(accessor.count, 0);
     const auto read = for_each_element(document, accessor, budget, [&](std::size_t place, const std::byte* bytes) {
         indices[place] = index_value(bytes, accessor.component_type);
     });
-    if (!read) return fail_unnamed(read.error().fault, "accessor {}: {}", index, read.error().sentence);
+    if (!read) return within(read.error(), "accessor {accessor}", index);
     return indices;
 }
 

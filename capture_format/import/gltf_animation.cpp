@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "capture_format/import/gltf_accessors.h"
+#include "capture_format/import/gltf_check.h"
 
 namespace strata::gltf {
 namespace {
@@ -31,15 +32,15 @@ Result<void> check_type(const Document& document, int index, const char* what, b
     const Accessor& accessor = document.accessors[static_cast<std::size_t>(index)];
     const bool is_normalized = accessor.normalized && accessor.component_type != uint32;
     if (accessor.component_type == float32 || (may_be_normalized && is_normalized)) return {};
-    return fail_unnamed(Fault::bad_input, "its {} are accessor {} of component type {}; they must be floats ({}){}", what, index,
-                        accessor.component_type, static_cast<std::uint64_t>(float32), may_be_normalized ? " or normalized" : "");
+    return within(not_floats(accessor.component_type, may_be_normalized ? " or normalized" : ""),
+                  "{numbers} in accessor {accessor}", what, index);
 }
 
 Result<std::vector<double>> read_numbers(const Document& document, int accessor, std::uint32_t components, MemoryBudget& budget) {
     const auto values = read_floats(document, accessor, components, budget);
     if (!values) return values.error();
     if (!std::all_of(values->begin(), values->end(), [](float value) { return std::isfinite(value); })) {
-        return fail_unnamed(Fault::bad_input, "accessor {} holds numbers that are not finite", accessor);
+        return within(not_finite(), "accessor {accessor}", accessor);
     }
     return std::vector<double>(values->begin(), values->end());
 }
@@ -47,7 +48,9 @@ Result<std::vector<double>> read_numbers(const Document& document, int accessor,
 /// The keys of one sampler for one path.
 Result<Track> read_track(const Document& document, const AnimationSampler& sampler, Track track, MemoryBudget& budget) {
     const auto interpolation = interpolation_of(sampler.interpolation);
-    if (!interpolation) return fail_unnamed(Fault::bad_input, "there is no interpolation '{:.40}'", sampler.interpolation);
+    if (!interpolation)
+        return fail(Fault::bad_input, "import.gltf.interpolation", "interpolation '{interpolation:.40}' does not exist",
+                    sampler.interpolation);
     track.interpolation = *interpolation;
     const bool may_be_normalized = track.path == Path::rotation || track.path == Path::weights;
     if (const auto good = check_type(document, sampler.input, "keyframe times", false); !good) return good.error();
@@ -55,9 +58,9 @@ Result<Track> read_track(const Document& document, const AnimationSampler& sampl
     auto times = read_numbers(document, sampler.input, 1, budget);
     if (!times) return times.error();
     track.times = *std::move(times);
-    if (track.times.empty()) return fail_unnamed(Fault::bad_input, "a sampler has no keys");
+    if (track.times.empty()) return fail(Fault::bad_input, "import.gltf.no_keys", "the sampler has no keys");
     if (!std::is_sorted(track.times.begin(), track.times.end()))
-        return fail_unnamed(Fault::bad_input, "the times of its keys fall");
+        return fail(Fault::bad_input, "import.gltf.key_order", "the times of the keys decrease");
     const std::uint32_t components = track.path == Path::weights ? 1 : track.path == Path::rotation ? 4 : 3;
     auto values = read_numbers(document, sampler.output, components, budget);
     if (!values) return values.error();
@@ -65,7 +68,8 @@ Result<Track> read_track(const Document& document, const AnimationSampler& sampl
     const std::size_t parts = track.times.size() * (track.interpolation == Interpolation::cubic ? 3 : 1);
     track.width = track.path == Path::weights ? track.values.size() / parts : components;
     if (track.width == 0 || track.values.size() != parts * track.width) {
-        return fail_unnamed(Fault::bad_input, "{} keys have {} numbers", track.times.size(), track.values.size());
+        return fail(Fault::bad_input, "import.gltf.key_count", "{keys} keys have {numbers} numbers", track.times.size(),
+                    track.values.size());
     }
     return track;
 }
@@ -145,10 +149,10 @@ Result<int> find_animation(const Document& document, const std::string& wanted) 
     const auto parsed = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
     if (parsed.ec == std::errc() && parsed.ptr == wanted.data() + wanted.size() && index < all.size())
         return static_cast<int>(index);
-    std::string names;
+    std::string names = all.empty() ? "" : ":";
     for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 16); ++i) names += fmt::format(" {} '{:.60}'", i, all[i].name);
-    return fail_unnamed(Fault::usage, "there is no animation '{:.60}'; the glTF has {}{}{}", wanted, all.size(),
-                        all.empty() ? "" : ":", names);
+    return fail(Fault::usage, "import.gltf.animation_missing",
+                "there is no animation '{animation:.60}'; the glTF has {animations}{names}", wanted, all.size(), names);
 }
 
 Result<Clip> Clip::read(const Document& document, const Animation& animation, MemoryBudget& budget) {
@@ -157,17 +161,18 @@ Result<Clip> Clip::read(const Document& document, const Animation& animation, Me
         if (channel.node < 0) continue;  // glTF 2.0, 5.3: a target that only an extension knows
         const auto node = static_cast<std::size_t>(channel.node), sampler = static_cast<std::size_t>(channel.sampler);
         const auto path = path_of(channel.path);
-        if (node >= document.nodes.size() || channel.sampler < 0 || sampler >= animation.samplers.size()) {
-            return fail_unnamed(Fault::bad_input, "animation '{:.60}' moves node {} by sampler {}, and there are {} and {}",
-                                animation.name, node, channel.sampler, document.nodes.size(), animation.samplers.size());
-        }
+        if (node >= document.nodes.size())
+            return within(no_such("node", channel.node, document.nodes.size()), "animation '{animation:.60}'", animation.name);
+        if (channel.sampler < 0 || sampler >= animation.samplers.size())
+            return within(no_such("sampler", channel.sampler, animation.samplers.size()), "animation '{animation:.60}'",
+                          animation.name);
         if (!path || (*path != Path::weights && document.nodes[node].matrix)) {
             clip.warnings_.push_back(fmt::format("animation '{:.60}': '{:.40}' of node {} stays as it is{}", animation.name,
                                                  channel.path, node, path ? ", because the node has a matrix" : ""));
             continue;
         }
         auto track = read_track(document, animation.samplers[sampler], {.node = channel.node, .path = *path}, budget);
-        if (!track) return fail_unnamed(track.error().fault, "animation '{:.60}': {}", animation.name, track.error().sentence);
+        if (!track) return within(track.error(), "animation '{animation:.60}'", animation.name);
         clip.duration_ = std::max(clip.duration_, track->times.back());
         clip.tracks_.push_back(*std::move(track));
     }

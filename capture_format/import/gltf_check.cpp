@@ -52,7 +52,7 @@ private:
 
     void expect(const std::string& where, const char* kind, int index, std::size_t count) {
         if (index < 0 || static_cast<std::size_t>(index) < count) return;
-        refuse(fail_unnamed(Fault::bad_input, "{} uses {} {}, which does not exist (there are {})", where, kind, index, count));
+        refuse(within(no_such(kind, index, count), "{place}", where));
     }
 
     void refuse(Error error) {
@@ -72,8 +72,8 @@ private:
             const std::string name = fmt::format("{}, primitive {}", where, i);
             expect(name, "material", primitive.material, document_.materials.size());
             if (primitive.mode <= triangle_fan) continue;
-            refuse(fail_unnamed(Fault::bad_input, "{} has mode {}; glTF's modes are 0 to {}", name, primitive.mode,
-                                static_cast<std::uint64_t>(triangle_fan)));
+            refuse(fail(Fault::bad_input, "import.gltf.mode", "{place} has mode {mode}; glTF's modes are 0 to {most}", name,
+                        primitive.mode, static_cast<std::uint64_t>(triangle_fan)));
         }
     }
 
@@ -87,10 +87,12 @@ private:
     void check(const std::string& where, const Sampler& sampler) {
         for (const auto& [name, mode] : {std::pair("wrapS", sampler.wrap_s), std::pair("wrapT", sampler.wrap_t)}) {
             if (mode == repeat || mode == clamp_to_edge || mode == mirrored_repeat) continue;
-            refuse(fail_unnamed(Fault::bad_input, "{} has {} {}, which is not a wrapping mode of glTF", where, name, mode));
+            refuse(fail(Fault::bad_input, "import.gltf.wrap_mode",
+                        "{place} has {member} {mode}, which is not a wrapping mode of glTF", where, name, mode));
         }
         if (sampler.mag_filter == nearest_filter || sampler.mag_filter == linear_filter) return;
-        refuse(fail_unnamed(Fault::bad_input, "{} has magFilter {}, which is not a filter of glTF", where, sampler.mag_filter));
+        refuse(fail(Fault::bad_input, "import.gltf.filter", "{place} has magFilter {filter}, which is not a filter of glTF",
+                    where, sampler.mag_filter));
     }
 
     const Document& document_;
@@ -99,14 +101,31 @@ private:
 
 }  // namespace
 
+Error no_such(std::string_view list, std::int64_t index, std::size_t count) {
+    return fail(Fault::bad_input, "import.gltf.index_range", "{list} {index} does not exist: the glTF has {count}", list, index,
+                count);
+}
+
+Error not_finite() { return fail(Fault::bad_input, "import.gltf.not_finite", "a number is not finite"); }
+
+Error not_floats(std::uint64_t component_type, std::string_view alternative) {
+    return fail(Fault::bad_input, "import.gltf.not_floats",
+                "component type {component_type} must be float ({float}){alternative}", component_type,
+                static_cast<std::uint64_t>(float32), alternative);
+}
+
 Result<void> check_version(const std::string& version, const std::string& least_version) {
     const auto file = version_of(version);
-    if (!file || file->first != 2) return fail_unnamed(Fault::bad_input, "its asset version is '{:.20}', not 2.0", version);
+    if (!file || file->first != 2)
+        return fail(Fault::bad_input, "import.gltf.version", "the asset version is '{version:.20}', not 2.0", version);
     if (least_version.empty()) return {};
     const auto least = version_of(least_version);
-    if (!least) return fail_unnamed(Fault::bad_input, "its asset.minVersion is '{:.20}', which is not a version", least_version);
+    if (!least)
+        return fail(Fault::bad_input, "import.gltf.min_version_syntax",
+                    "asset.minVersion is '{version:.20}', which is not a version", least_version);
     if (*least <= std::pair(2, 0)) return {};
-    return fail_unnamed(Fault::bad_input, "its asset.minVersion is {}; this program reads glTF 2.0", least_version);
+    return fail(Fault::bad_input, "import.gltf.min_version", "asset.minVersion is {version}; this program reads glTF 2.0",
+                least_version);
 }
 
 Result<void> check_references(const Document& document) { return ReferenceCheck(document).run(); }

@@ -21,7 +21,7 @@ namespace strata::gltf {
 /// Bytes that may turn out not to be there: then `fault` says why, and only who needs them fails.
 struct Bytes {
     std::span<const std::byte> bytes;
-    std::string fault;
+    std::optional<Error> fault = {};
 };
 
 struct BufferView {

@@ -78,7 +78,8 @@ void FrameSource::warn(std::string sentence) {
 Result<void> FrameSource::check_extensions() {
     for (const std::string& extension : document_.extensions_required) {
         if (!is_supported(extension) && !is_ignored_material_extension(extension)) {
-            return fail_unnamed(Fault::bad_input, "the glTF requires {:.80}, which is not supported", extension);
+            return fail(Fault::bad_input, "import.gltf.extension", "the glTF requires {extension:.80}, which is not supported",
+                        extension);
         }
     }
     for (const std::string& extension : document_.extensions_used) {
@@ -93,7 +94,7 @@ Result<void> FrameSource::read_animation() {
     if (!index) return index.error();
     moving_.assign(document_.nodes.size(), false);
     if (*index < 0 && options_.fps)
-        return fail_unnamed(Fault::usage, "--fps has no effect: the glTF has no animation that could be sampled");
+        return fail(Fault::usage, "import.gltf.fps_unused", "--fps has no effect: the glTF has no animation to sample");
     if (*index < 0) return {};
     const Animation& animation = document_.animations[static_cast<std::size_t>(*index)];
     auto clip = Clip::read(document_, animation, budget_);
@@ -286,15 +287,15 @@ Result<void> FrameSource::frame_everything() {
 Result<void> FrameSource::set_view(Making& making) {
     const std::size_t cameras = document_.cameras.size();
     if (options_.camera >= 0 && static_cast<std::size_t>(options_.camera) >= cameras) {
-        return fail_unnamed(Fault::usage, "there is no camera {}; the glTF has {}", options_.camera, cameras);
+        return fail(Fault::usage, "import.gltf.camera_missing", "there is no camera {camera}; the glTF has {cameras}",
+                    options_.camera, cameras);
     }
     const bool is_placed = options_.eye || options_.inside;
     const auto seen = cameras > 0 && !is_placed ? seen_by_camera(making.to_world) : std::nullopt;
     if (seen && (options_.azimuth || options_.elevation || options_.fov))
-        return fail_unnamed(
-            Fault::usage,
-            "--fov, --azimuth and --elevation have no effect: the glTF's own camera is used. Leave them out, or place a "
-            "camera with --eye or --inside");
+        return fail(Fault::usage, "import.gltf.view_unused",
+                    "--fov, --azimuth and --elevation have no effect: the glTF's own camera is used. Leave them out, or place a "
+                    "camera with --eye or --inside");
     if (!seen && !framing_) {
         if (const auto framed = frame_everything(); !framed) return framed;
     }
@@ -306,7 +307,7 @@ Result<void> FrameSource::set_view(Making& making) {
 }
 
 /// A file without lights gets a sun and a sky; shadows are scaled to the scene. glTF lights are physical and its cameras have
-/// no exposure: a lamp of 180 candela a metre away makes paper 57 times as bright as white. Where lights could make a white
+/// no exposure: a lamp of 180 candela a meter away makes paper 57 times as bright as white. Where lights could make a white
 /// surface brighter than the film's white, that becomes its white.
 void FrameSource::set_light(Making& making) {
     Frame& frame = making.frame;

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "capture_format/frame.h"
 #include "capture_format/import/gltf.h"
 #include "capture_format/import/gltf_animation.h"
 #include "capture_format/import/gltf_document.h"
@@ -18,6 +17,12 @@
 #include "capture_format/import/gltf_view.h"
 #include "capture_format/memory_budget.h"
 #include "capture_format/result.h"
+
+namespace strata {
+
+struct Draw;  // capture_format/frame/draw.h
+
+}  // namespace strata
 
 namespace strata::gltf {
 

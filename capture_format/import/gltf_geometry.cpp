@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capture_format/import/gltf_accessors.h"
+#include "capture_format/import/gltf_check.h"
 #include "capture_format/import/gltf_meshes.h"
 #include "capture_format/import/gltf_pose.h"
 
@@ -26,7 +27,7 @@ void Geometry::warn(const MeshSource& source, const std::vector<std::string>& se
 Result<void> Geometry::read(const Node& node) {
     if (node.mesh < 0) return {};
     if (static_cast<std::size_t>(node.mesh) >= document_.meshes.size()) {
-        return fail_unnamed(Fault::bad_input, "node '{:.60}' shows mesh {}, which does not exist", node.name, node.mesh);
+        return within(no_such("mesh", node.mesh, document_.meshes.size()), "node '{node:.60}'", node.name);
     }
     if (node.skin >= 0) {
         if (const auto read = read_skin(node.skin); !read) return read;
@@ -34,7 +35,7 @@ Result<void> Geometry::read(const Node& node) {
     const MeshSource& mesh = document_.meshes[static_cast<std::size_t>(node.mesh)];
     for (const Primitive& primitive : mesh.primitives) {
         const auto read = read_primitive(node, mesh, primitive);
-        if (!read) return fail_unnamed(read.error().fault, "mesh '{:.60}': {}", mesh.name, read.error().sentence);
+        if (!read) return within(read.error(), "mesh '{mesh:.60}'", mesh.name);
     }
     return {};
 }
@@ -53,7 +54,8 @@ Result<void> Geometry::read_primitive(const Node& node, const MeshSource& source
     if (!moving || node.skin < 0) return {};
     const std::size_t needed = moving_.at(&primitive).joint_end, joints = bind_.at(node.skin).size();
     if (needed > joints)
-        return fail_unnamed(Fault::bad_input, "a vertex follows joint {} of a skin that has {}", needed - 1, joints);
+        return fail(Fault::bad_input, "import.gltf.joint_range", "a vertex uses joint {joint} of a skin that has {joints}",
+                    needed - 1, joints);
     return {};
 }
 
@@ -68,26 +70,25 @@ void Geometry::keep_fixed(const MeshSource& source, const Primitive& primitive, 
 Result<void> Geometry::read_skin(int index) {
     if (bind_.contains(index)) return {};
     if (static_cast<std::size_t>(index) >= document_.skins.size()) {
-        return fail_unnamed(Fault::bad_input, "skin {} does not exist (there are {})", index, document_.skins.size());
+        return no_such("skin", index, document_.skins.size());
     }
     const Skin& skin = document_.skins[static_cast<std::size_t>(index)];
     for (const int joint : skin.joints) {
         if (joint < 0 || static_cast<std::size_t>(joint) >= document_.nodes.size()) {
-            return fail_unnamed(Fault::bad_input, "skin {} has joint {}, and there are {} nodes", index, joint,
-                                document_.nodes.size());
+            return within(no_such("node", joint, document_.nodes.size()), "skin {skin}, joints", index);
         }
     }
     std::vector<glm::dmat4> matrices(skin.joints.size(), glm::dmat4(1));
     if (skin.inverse_bind_matrices >= 0) {
         const auto values = read_floats(document_, skin.inverse_bind_matrices, 16, budget_);
-        if (!values) return fail_unnamed(values.error().fault, "skin {}: {}", index, values.error().sentence);
+        if (!values) return within(values.error(), "skin {skin}", index);
         if (values->size() < matrices.size() * 16) {
-            return fail_unnamed(Fault::bad_input, "skin {} has {} joints and {} inverse bind matrices", index, matrices.size(),
-                                values->size() / 16);
+            return fail(Fault::bad_input, "import.gltf.bind_matrices",
+                        "skin {skin} has {joints} joints and {matrices} inverse bind matrices", index, matrices.size(),
+                        values->size() / 16);
         }
         for (std::size_t i = 0; i < matrices.size() * 16; ++i) {
-            if (!std::isfinite((*values)[i]))
-                return fail_unnamed(Fault::bad_input, "an inverse bind matrix of skin {} is not finite", index);
+            if (!std::isfinite((*values)[i])) return within(not_finite(), "skin {skin}, inverse bind matrices", index);
             matrices[i / 16][static_cast<int>(i % 16 / 4)][static_cast<int>(i % 4)] = static_cast<double>((*values)[i]);
         }
     }

@@ -9,7 +9,7 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/material.h"
 #include "capture_format/import/gltf_document.h"
 #include "capture_format/import/gltf_streams.h"
 #include "capture_format/memory_budget.h"

@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "capture_format/import/gltf_accessors.h"
+#include "capture_format/import/gltf_check.h"
 
 namespace strata::gltf {
 namespace {
@@ -25,16 +26,15 @@ Result<std::vector<float>> read_attribute(const Document& document, const Node& 
     const auto found = node.instances.find(type.name);
     if (found == node.instances.end()) return std::vector<float>();
     auto values = read_floats(document, found->second, type.components, budget);
-    if (!values) return fail_unnamed(values.error().fault, "{}: {}", type.name, values.error().sentence);
+    if (!values) return within(values.error(), "{attribute}", type.name);
     const Accessor& accessor = document.accessors[static_cast<std::size_t>(found->second)];
     const bool is_signed = accessor.component_type == int8 || accessor.component_type == int16;
     if (accessor.component_type != float32 && !(type.may_be_normalized && is_signed && accessor.normalized)) {
-        return fail_unnamed(Fault::bad_input, "{} has component type {}; it must be float ({}){}", type.name,
-                            accessor.component_type, static_cast<std::uint64_t>(float32),
-                            type.may_be_normalized ? " or normalized signed bytes or shorts" : "");
+        return within(not_floats(accessor.component_type, type.may_be_normalized ? " or normalized signed bytes or shorts" : ""),
+                      "{attribute}", type.name);
     }
     if (!std::all_of(values->begin(), values->end(), [](float value) { return std::isfinite(value); }))
-        return fail_unnamed(Fault::bad_input, "{} holds numbers that are not finite", type.name);
+        return within(not_finite(), "{attribute}", type.name);
     return values;
 }
 
@@ -43,14 +43,14 @@ Result<std::size_t> count_instances(const Document& document, const Node& node) 
     std::optional<std::uint64_t> count;
     for (const auto& [name, index] : node.instances) {
         if (index < 0 || static_cast<std::size_t>(index) >= document.accessors.size())
-            return fail_unnamed(Fault::bad_input, "{}: accessor {} does not exist (there are {})", name, index,
-                                document.accessors.size());
+            return within(no_such("accessor", index, document.accessors.size()), "{attribute}", name);
         const std::uint64_t here = document.accessors[static_cast<std::size_t>(index)].count;
         if (count.value_or(here) != here)
-            return fail_unnamed(Fault::bad_input, "{} has {} elements, others have {}", name, here, *count);
+            return fail(Fault::bad_input, "import.gltf.attribute_count",
+                        "{attribute} has {elements} elements; other attributes have {wanted}", name, here, *count);
         count = here;
     }
-    if (!count) return fail_unnamed(Fault::bad_input, "EXT_mesh_gpu_instancing has no attributes");
+    if (!count) return fail(Fault::bad_input, "import.gltf.no_instance_attributes", "EXT_mesh_gpu_instancing has no attributes");
     return static_cast<std::size_t>(*count);
 }
 
@@ -85,8 +85,7 @@ Result<std::vector<glm::dmat4>> read_matrices(const Document& document, const No
 Result<std::vector<glm::dmat4>> read_instances(const Document& document, const Node& node, MemoryBudget& budget) {
     if (!node.is_instanced) return std::vector<glm::dmat4>{glm::dmat4(1)};
     auto matrices = read_matrices(document, node, budget);
-    if (!matrices)
-        return fail_unnamed(matrices.error().fault, "instances of node '{:.60}': {}", node.name, matrices.error().sentence);
+    if (!matrices) return within(matrices.error(), "instances of node '{node:.60}'", node.name);
     return matrices;
 }
 

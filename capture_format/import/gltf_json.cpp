@@ -45,7 +45,8 @@ Result<void> check_extent(std::string_view text, MemoryBudget& budget) {
         if (c == ']' || c == '}') --depth;
         if (c != '[' && c != '{') continue;
         ++structures;
-        if (++depth > deepest) return fail_unnamed(Fault::bad_input, "the JSON nests deeper than {} levels", deepest);
+        if (++depth > deepest)
+            return fail(Fault::bad_input, "import.gltf.json_depth", "the JSON nests deeper than {most} levels", deepest);
     }
     if (const auto room = budget.take(values, bytes_per_value, "the values of the JSON"); !room) return room;
     return budget.take(structures, bytes_per_structure, "the objects and lists of the JSON");
@@ -56,7 +57,7 @@ class FirstError : public nlohmann::json_sax<Json> {
 public:
     explicit FirstError(std::string_view text) : text_(text) {}
 
-    std::string sentence() const { return sentence_; }
+    const Error& error() const { return error_; }
 
     bool null() override { return next(); }
     bool boolean(bool) override { return next(); }
@@ -75,13 +76,15 @@ public:
     bool end_array() override { return end(); }
 
     bool parse_error(std::size_t read, const std::string& token, const nlohmann::detail::exception& error) override {
-        constexpr int out_of_range = 406, longest = 40;
+        constexpr int out_of_range = 406;
         constexpr std::string_view marks = " \t\r\n,:[]{}\"";
         const std::string at = open_.empty() ? std::string("the file") : place();
         if (error.id == out_of_range) {
-            sentence_ = fmt::format("{}: {:.{}} is too large for a number", at, token, longest);
+            error_ =
+                fail(Fault::bad_input, "import.gltf.json_number", "{place}: {number:.40} is too large for a number", at, token);
         } else if (read > text_.size()) {
-            sentence_ = fmt::format("the JSON is cut short in {} after {} bytes", at, text_.size());
+            error_ = fail(Fault::bad_input, "import.gltf.json_cut", "the JSON is cut short in {place} after {bytes} bytes", at,
+                          text_.size());
         } else {
             // The word around the byte that is wrong; the parser's token has what lies before it, too.
             const std::size_t wrong = read - std::min<std::size_t>(read, 1), mark = text_.find_last_of(marks, wrong),
@@ -89,9 +92,10 @@ public:
             const std::size_t end = std::min(text_.size(), std::max(text_.find_first_of(marks, begin), begin + 1));
             const auto first = static_cast<unsigned char>(text_[begin]);
             const bool is_text = first >= ' ' && first <= '~';
-            sentence_ =
-                is_text ? fmt::format("{}: '{:.{}}' at byte {} is not JSON", at, text_.substr(begin, end - begin), longest, begin)
-                        : fmt::format("{}: byte {} is {:#04x} and not JSON", at, begin, first);
+            const std::string word =
+                is_text ? fmt::format("'{:.40}'", text_.substr(begin, end - begin)) : fmt::format("{:#04x}", first);
+            error_ =
+                fail(Fault::bad_input, "import.gltf.json_syntax", "{place}: {word} at byte {byte} is not JSON", at, word, begin);
         }
         return false;
     }
@@ -124,7 +128,7 @@ private:
 
     std::string_view text_;
     std::vector<Open> open_;
-    std::string sentence_;
+    Error error_;
 };
 
 }  // namespace
@@ -135,9 +139,9 @@ Result<Json> parse_json(std::string_view text, MemoryBudget& budget) {
     if (root.is_discarded()) {
         FirstError error(text);
         Json::sax_parse(text.begin(), text.end(), &error);
-        return fail_unnamed(Fault::bad_input, "{}", error.sentence());
+        return error.error();
     }
-    if (!root.is_object()) return fail_unnamed(Fault::bad_input, "the JSON is no object");
+    if (!root.is_object()) return fail(Fault::bad_input, "import.gltf.not_an_object", "{place} is not an object", "the JSON");
     return root;
 }
 
@@ -145,7 +149,7 @@ Fields::Fields(const Json& object, std::string where, std::optional<Error>& prob
     : object_(&object), where_(std::move(where)), problem_(problem) {
     if (object.is_object()) return;
     object_ = &no_members;
-    if (!problem_) problem_ = fail_unnamed(Fault::bad_input, "{} is no object", where_);
+    if (!problem_) problem_ = fail(Fault::bad_input, "import.gltf.not_an_object", "{place} is not an object", where_);
 }
 
 const Json* Fields::member(const char* name) const {
@@ -161,7 +165,8 @@ const Json* Fields::member_list(const char* name) {
 }
 
 void Fields::wrong(const char* name, std::string_view wanted) {
-    if (!problem_) problem_ = fail_unnamed(Fault::bad_input, "{}.{} is not {}", where_, name, wanted);
+    if (!problem_)
+        problem_ = fail(Fault::bad_input, "import.gltf.member_type", "{place}.{member} is not {wanted}", where_, name, wanted);
 }
 
 int Fields::index(const char* name) {

@@ -5,6 +5,10 @@
 #include <limits>
 #include <numbers>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/light_types.h"
+
 namespace strata::gltf {
 namespace {
 
@@ -77,7 +81,7 @@ std::vector<std::string> add_lights(Frame& frame, const Document& document, cons
         }
         warn_of_light(warnings, node.light, document.lights[static_cast<std::size_t>(node.light)]);
         const Light light = convert_light(document.lights[static_cast<std::size_t>(node.light)], to_world[index]);
-        if (light.type == LightType::directional && !has_sun) {
+        if (!has_range(light.type) && !has_sun) {
             has_sun = true;
             frame.sun.direction = light.direction;
             frame.sun.irradiance = light.intensity;
@@ -102,8 +106,8 @@ double white_radiance(const Frame& frame, const Bounds& scene) {
     double irradiance = brightest(frame.sun.irradiance);
     for (const Light& light : frame.lights) {
         const double distance = std::max(glm::length(light.position - scene.center()), scene.radius() * 0.5);
-        const bool reaches = light.type == LightType::directional || distance < static_cast<double>(light.range);
-        const double falloff = light.type == LightType::directional ? 1 : distance * distance;
+        const bool reaches = !has_range(light.type) || distance < static_cast<double>(light.range);
+        const double falloff = has_range(light.type) ? distance * distance : 1;
         if (reaches) irradiance += brightest(light.intensity) / falloff;
     }
     return irradiance / std::numbers::pi;

@@ -6,7 +6,6 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
 #include "capture_format/import/gltf_document.h"
 #include "capture_format/import/gltf_nodes.h"
 #include "capture_format/import/gltf_view.h"

@@ -120,16 +120,16 @@ public:
     }
 
 private:
-    /// Broken bytes are a fault of those who need them; too few bytes of memory end the import.
-    std::string fault_of(const Error& error) {
+    /// No bytes. Broken ones are a fault of those who need them; too few bytes of memory end the import.
+    Bytes none(Error error) {
         if (error.fault == Fault::device_lacks && !lacking_) lacking_ = error;
-        return error.sentence;
+        return {{}, std::move(error)};
     }
 
     /// What a URI stands for, kept in the document.
     Bytes resource(const std::string& uri) {
         auto bytes = folder_.read(uri, budget_);
-        if (!bytes) return {{}, fault_of(bytes.error())};
+        if (!bytes) return none(bytes.error());
         document_.storage.push_back(*std::move(bytes));
         return {document_.storage.back(), {}};
     }
@@ -139,24 +139,28 @@ private:
         const std::string uri = fields.text("uri");
         const bool fallback = fields.object("extensions").object("EXT_meshopt_compression").flag("fallback", false);
         if (uri.empty() && (fallback || index != 0 || binary.empty())) {
-            return {{}, fmt::format("buffer {} has no bytes: no uri, and no binary chunk is left for it", index)};
+            return none(fail(Fault::bad_input, "import.gltf.buffer_without_bytes",
+                             "buffer {buffer} has no uri, and no binary chunk is left for it", index));
         }
         Bytes buffer = uri.empty() ? Bytes{binary, {}} : resource(uri);
-        if (!buffer.fault.empty()) return {{}, fmt::format("buffer {}: {}", index, buffer.fault)};
+        if (buffer.fault) return none(within(*buffer.fault, "buffer {buffer}", index));
         if (length > buffer.bytes.size()) {
-            return {{}, fmt::format("buffer {} claims {} bytes, {} are there", index, length, buffer.bytes.size())};
+            return none(fail(Fault::bad_input, "import.gltf.buffer_cut",
+                             "buffer {buffer} claims {claimed_bytes} bytes; {bytes} are there", index, length,
+                             buffer.bytes.size()));
         }
         return {buffer.bytes.first(length), {}};
     }
 
     Bytes part(const Fields& where, int buffer, std::uint64_t offset, std::uint64_t length) {
         if (buffer < 0 || static_cast<std::size_t>(buffer) >= buffers_.size()) {
-            return {{}, fmt::format("{} names buffer {}, which does not exist", where.where(), buffer)};
+            return none(within(no_such("buffer", buffer, buffers_.size()), "{place}", where.where()));
         }
         const Bytes& source = buffers_[static_cast<std::size_t>(buffer)];
-        if (!source.fault.empty()) return source;
+        if (source.fault) return source;
         if (offset > source.bytes.size() || length > source.bytes.size() - offset) {
-            return {{}, fmt::format("{} leaves its buffer of {} bytes", where.where(), source.bytes.size())};
+            return none(fail(Fault::bad_input, "import.gltf.buffer_view_range",
+                             "{place} extends past the end of its buffer of {bytes} bytes", where.where(), source.bytes.size()));
         }
         return {source.bytes.subspan(offset, length), {}};
     }
@@ -170,9 +174,9 @@ private:
         if (!fields.object("extensions").has("EXT_meshopt_compression")) return {part(fields), stride};
         Fields packed = fields.object("extensions").object("EXT_meshopt_compression");
         const Bytes source = part(packed);
-        if (!source.fault.empty()) {
+        if (source.fault) {
             Bytes fallback = part(fields);
-            return {fallback.fault.empty() ? fallback : source, stride};
+            return {fallback.fault ? source : fallback, stride};
         }
         auto unpacked = decode_meshopt(source.bytes,
                                        {.count = packed.size("count", 0),
@@ -180,7 +184,7 @@ private:
                                         .mode = packed.text("mode"),
                                         .filter = packed.text("filter", "NONE")},
                                        budget_);
-        if (!unpacked) return {{{}, fmt::format("{}: {}", fields.where(), fault_of(unpacked.error()))}, stride};
+        if (!unpacked) return {none(within(unpacked.error(), "{place}", fields.where())), stride};
         document_.storage.push_back(*std::move(unpacked));
         return {{document_.storage.back(), {}}, stride};
     }
@@ -198,9 +202,11 @@ private:
         if (view >= 0) {
             const bool exists = static_cast<std::size_t>(view) < document_.views.size();
             image.content = exists ? document_.views[static_cast<std::size_t>(view)].content
-                                   : Bytes{{}, fmt::format("buffer view {} does not exist", view)};
+                                   : none(no_such("buffer view", view, document_.views.size()));
         } else {
-            image.content = image.uri.empty() ? Bytes{{}, "it has neither a uri nor a buffer view"} : resource(image.uri);
+            image.content = image.uri.empty() ? none(fail(Fault::bad_input, "import.gltf.image_without_bytes",
+                                                          "the image has neither a uri nor a buffer view"))
+                                              : resource(image.uri);
         }
         if (image.uri.starts_with("data:")) image.uri = "data URI";
         return image;

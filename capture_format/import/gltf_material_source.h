@@ -28,7 +28,7 @@ struct MaterialSource {
 
     double transmission = 0;  ///< KHR_materials_transmission
     TextureReference transmission_texture;
-    double thickness = 0, attenuation_distance = 0;  ///< KHR_materials_volume, metres; no distance means no attenuation
+    double thickness = 0, attenuation_distance = 0;  ///< KHR_materials_volume, meters; no distance means no attenuation
     TextureReference thickness_texture;
     glm::dvec3 attenuation_color{1};
     double ior = 1.5;                        ///< KHR_materials_ior

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/texture.h"
 #include "capture_format/import/gltf_document.h"
 #include "capture_format/memory_budget.h"
 #include "capture_format/result.h"

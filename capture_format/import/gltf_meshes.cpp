@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <span>
 
 #include <fmt/core.h>
+
+#include "capture_format/frame/material.h"
 
 namespace strata::gltf {
 namespace {

@@ -4,7 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/mesh.h"
+
+namespace strata {
+
+struct Material;    // capture_format/frame/material.h
+struct TextureUse;  // capture_format/frame/material.h
+
+}  // namespace strata
 
 namespace strata::gltf {
 

@@ -10,19 +10,22 @@ Result<void> check(const MeshoptLayout& layout) {
     const std::uint64_t stride = layout.stride;
     const bool attributes = layout.mode == "ATTRIBUTES";
     if (!attributes && layout.mode != "TRIANGLES" && layout.mode != "INDICES") {
-        return fail_unnamed(Fault::bad_input, "there is no compression mode '{:.40}'", layout.mode);
+        return fail(Fault::bad_input, "import.gltf.meshopt_mode", "compression mode '{mode:.40}' does not exist", layout.mode);
     }
     const bool strides = attributes ? stride >= 4 && stride <= 256 && stride % 4 == 0 : stride == 2 || stride == 4;
-    if (!strides) return fail_unnamed(Fault::bad_input, "a stride of {} does not fit compression mode {}", stride, layout.mode);
+    if (!strides)
+        return fail(Fault::bad_input, "import.gltf.meshopt_stride", "a stride of {stride} does not fit compression mode {mode}",
+                    stride, layout.mode);
     if (layout.mode == "TRIANGLES" && layout.count % 3 != 0) {
-        return fail_unnamed(Fault::bad_input, "{} compressed indices are no whole triangles", layout.count);
+        return fail(Fault::bad_input, "import.gltf.meshopt_triangles", "{indices} compressed indices are not whole triangles",
+                    layout.count);
     }
     const std::string& filter = layout.filter;
     const bool filters = filter == "NONE" || (attributes && filter == "OCTAHEDRAL" && (stride == 4 || stride == 8)) ||
                          (attributes && filter == "QUATERNION" && stride == 8) || (attributes && filter == "EXPONENTIAL");
     if (!filters) {
-        return fail_unnamed(Fault::bad_input, "filter '{:.40}' does not fit compression mode {} of stride {}", filter,
-                            layout.mode, stride);
+        return fail(Fault::bad_input, "import.gltf.meshopt_filter",
+                    "filter '{filter:.40}' does not fit compression mode {mode} of stride {stride}", filter, layout.mode, stride);
     }
     return {};
 }
@@ -44,7 +47,8 @@ Result<std::vector<std::byte>> decode_meshopt(std::span<const std::byte> packed,
     } else {
         failed = meshopt_decodeIndexSequence(unpacked.data(), layout.count, layout.stride, source, packed.size());
     }
-    if (failed != 0) return fail_unnamed(Fault::bad_input, "its {} compressed bytes are damaged", packed.size());
+    if (failed != 0)
+        return fail(Fault::bad_input, "import.gltf.meshopt_damaged", "the {bytes} compressed bytes are damaged", packed.size());
     if (layout.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(unpacked.data(), layout.count, layout.stride);
     if (layout.filter == "QUATERNION") meshopt_decodeFilterQuat(unpacked.data(), layout.count, layout.stride);
     if (layout.filter == "EXPONENTIAL") meshopt_decodeFilterExp(unpacked.data(), layout.count, layout.stride);

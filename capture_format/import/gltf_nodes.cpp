@@ -2,6 +2,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "capture_format/import/gltf_check.h"
+
 namespace strata::gltf {
 namespace {
 
@@ -30,7 +32,7 @@ public:
         }
         if (document_.scenes && static_cast<std::size_t>(document_.scene) >= document_.scenes->size() &&
             !document_.scenes->empty()) {
-            return fail_unnamed(Fault::bad_input, "scene {} does not exist", document_.scene);
+            return no_such("scene", document_.scene, document_.scenes->size());
         }
         // a file without scenes shows every node that is nobody's child
         const bool has_scene = document_.scenes && !document_.scenes->empty();
@@ -53,11 +55,12 @@ private:
             const Hierarchy::Step next = pending.back();
             pending.pop_back();
             if (!exists(next.node)) {
-                return fail_unnamed(Fault::bad_input, "node {} does not exist (there are {})", next.node, document_.nodes.size());
+                return no_such("node", next.node, document_.nodes.size());
             }
             const auto index = static_cast<std::size_t>(next.node);
             if (reached_[index])
-                return fail_unnamed(Fault::bad_input, "node {} is reached twice; nodes must be a tree", next.node);
+                return fail(Fault::bad_input, "import.gltf.node_cycle", "node {node} is reached twice; nodes must form a tree",
+                            next.node);
             reached_[index] = true;
             hierarchy_.steps.push_back(next);
             const std::vector<int>& children = document_.nodes[index].children;

@@ -5,7 +5,6 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
 #include "capture_format/import/gltf_streams.h"
 
 namespace strata::gltf {

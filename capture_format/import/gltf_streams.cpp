@@ -6,6 +6,7 @@
 #include <span>
 
 #include "capture_format/import/gltf_accessors.h"
+#include "capture_format/import/gltf_check.h"
 
 namespace strata::gltf {
 namespace {
@@ -81,12 +82,13 @@ private:
         if (accessor < 0 || problem_) return {};
         const auto values = read_floats(document_, accessor, static_cast<std::uint32_t>(Vector::length()), budget_);
         if (!values) {
-            refuse(fail_unnamed(values.error().fault, "{}: {}", name, values.error().sentence));
+            refuse(within(values.error(), "{attribute}", name));
             return {};
         }
         const std::size_t count = values->size() / Vector::length(), wanted = streams_.mesh.positions.size();
         if (count != wanted) {
-            refuse(fail_unnamed(Fault::bad_input, "{} has {} elements, POSITION has {}", name, count, wanted));
+            refuse(fail(Fault::bad_input, "import.gltf.attribute_count",
+                        "{attribute} has {elements} elements; other attributes have {wanted}", name, count, wanted));
             return {};
         }
         if (all_finite(*values)) return packed<Vector>(*values);
@@ -96,8 +98,8 @@ private:
 
     void read_positions() {
         const auto values = read_floats(document_, accessor_of(primitive_.attributes, "POSITION"), 3, budget_);
-        if (!values) return refuse(fail_unnamed(values.error().fault, "POSITION: {}", values.error().sentence));
-        if (!all_finite(*values)) return refuse(fail_unnamed(Fault::bad_input, "POSITION holds numbers that are not finite"));
+        if (!values) return refuse(within(values.error(), "{attribute}", "POSITION"));
+        if (!all_finite(*values)) return refuse(within(not_finite(), "{attribute}", "POSITION"));
         streams_.mesh.positions = packed<glm::vec3>(*values);
     }
 
@@ -116,7 +118,8 @@ private:
         }
         const auto beyond = std::find_if(order.begin(), order.end(), [&](std::uint32_t index) { return index >= vertices; });
         if (beyond != order.end()) {
-            return refuse(fail_unnamed(Fault::bad_input, "a triangle uses vertex {} of {}", *beyond, vertices));
+            return refuse(fail(Fault::bad_input, "import.gltf.vertex_range", "a triangle uses vertex {vertex} of {vertices}",
+                               *beyond, vertices));
         }
         // each corner of a strip may become three; without normals each of them is a vertex of its own
         const std::uint64_t corners = order.size() * (primitive_.mode == triangle_list ? 1 : 3);
@@ -153,7 +156,7 @@ private:
             joints.push_back(stream<glm::vec4>(primitive_.attributes, "JOINTS_" + set));
             weights.push_back(stream<glm::vec4>(primitive_.attributes, "WEIGHTS_" + set));
             if (weights.back().size() != joints.back().size() && !problem_) {
-                refuse(fail_unnamed(Fault::bad_input, "JOINTS_{0} has no WEIGHTS_{0} of use", set));
+                refuse(fail(Fault::bad_input, "import.gltf.joints_without_weights", "JOINTS_{set} has no usable weights", set));
             }
         }
         if (problem_ || joints.empty()) return;
@@ -172,7 +175,7 @@ private:
     void add_influence(float joint, float weight, double sum) {
         const bool moves = weight > 0;
         if (moves && !(joint >= 0 && joint <= 65535))
-            return refuse(fail_unnamed(Fault::bad_input, "there is no joint {}", joint));
+            return refuse(fail(Fault::bad_input, "import.gltf.joint", "{joint} is not the index of a joint", joint));
         const auto index = moves ? static_cast<std::uint32_t>(joint) : 0;
         streams_.joints.push_back(index);
         streams_.weights.push_back(moves ? static_cast<float>(static_cast<double>(weight) / sum) : 0.0f);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/mesh.h"
 #include "capture_format/import/gltf_document.h"
 #include "capture_format/memory_budget.h"
 #include "capture_format/result.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "capture_format/frame/texture.h"
 #include "capture_format/import/gltf_streams.h"
 #include "capture_format/srgb.h"
 

@@ -8,9 +8,14 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
 #include "capture_format/import/gltf_document.h"
 #include "capture_format/memory_budget.h"
+
+namespace strata {
+
+struct Texture;  // capture_format/frame/texture.h
+
+}  // namespace strata
 
 namespace strata::gltf {
 

@@ -31,25 +31,29 @@ bool is_png_or_jpeg(std::span<const std::byte> bytes) {
 }  // namespace
 
 Result<Texture> TextureImport::decode(int index, std::uint64_t bytes_per_texel) {
-    if (index < 0) return fail_unnamed(Fault::bad_input, "it has no image that is PNG or JPEG");
+    if (index < 0) return fail(Fault::bad_input, "import.gltf.no_image", "the texture has no PNG or JPEG image");
     const Image& image = document_.images[static_cast<std::size_t>(index)];
-    if (!image.content.fault.empty()) return fail_unnamed(Fault::bad_input, "image {}: {}", index, image.content.fault);
+    if (image.content.fault) return within(*image.content.fault, "image {image}", index);
     const auto* encoded = reinterpret_cast<const stbi_uc*>(image.content.bytes.data());
     const auto size = static_cast<int>(std::min<std::size_t>(image.content.bytes.size(), 0x7fffffff));
     int width = 0, height = 0, channels = 0;
     if (!is_png_or_jpeg(image.content.bytes) || stbi_info_from_memory(encoded, size, &width, &height, &channels) == 0) {
-        return fail_unnamed(Fault::bad_input, "image {} '{:.80}' is neither PNG nor JPEG", index, image.name + image.uri);
+        return fail(Fault::bad_input, "import.gltf.image_format", "image {image} '{name:.80}' is neither PNG nor JPEG", index,
+                    image.name + image.uri);
     }
     // before it is decompressed: a few bytes can ask for gigabytes
     if (static_cast<std::uint32_t>(std::max(width, height)) > largest_extent) {
-        return fail_unnamed(Fault::bad_input, "image {} has {} x {} texels; at most {} per edge are read", index, width, height,
-                            largest_extent);
+        return fail(Fault::bad_input, "import.gltf.image_size",
+                    "image {image} has {width} x {height} texels; the limit is {most} per edge", index, width, height,
+                    largest_extent);
     }
     const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     if (const auto room = budget_.take(texels, bytes_per_texel, fmt::format("image {}", index)); !room) return room.error();
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         stbi_load_from_memory(encoded, size, &width, &height, &channels, STBI_rgb_alpha), stbi_image_free);
-    if (!pixels) return fail_unnamed(Fault::bad_input, "image {} is damaged: {}", index, stbi_failure_reason());
+    if (!pixels)
+        return fail(Fault::bad_input, "import.gltf.image_damaged", "image {image} is damaged: {reason}", index,
+                    stbi_failure_reason());
     Texture texture;
     texture.name = image.name.empty() ? image.uri : image.name;
     texture.width = static_cast<std::uint32_t>(width);

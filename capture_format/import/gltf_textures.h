@@ -12,7 +12,7 @@
 #include <glm/glm.hpp>
 
 #include "capture_format/container/blob_store.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/texture.h"
 #include "capture_format/import/gltf_document.h"
 #include "capture_format/memory_budget.h"
 #include "capture_format/result.h"

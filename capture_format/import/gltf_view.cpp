@@ -45,10 +45,11 @@ Aim aimed_view(std::span<const glm::dvec3> points, glm::dvec3 eye, glm::dvec3 fo
 }  // namespace
 
 Result<View> camera_view(const CameraSource& camera, const glm::dmat4& to_world, double width_over_height) {
-    if (camera.type != "perspective") return fail_unnamed(Fault::bad_input, "orthographic cameras are not supported");
+    if (camera.type != "perspective")
+        return fail(Fault::bad_input, "import.gltf.orthographic", "orthographic cameras are not supported");
     const glm::dvec3 forward = -glm::dvec3(to_world[2]), up(to_world[1]);
     if (!(camera.yfov > 0 && camera.yfov < 3.1 && camera.znear > 0) || !(glm::length(glm::cross(forward, up)) > 0)) {
-        return fail_unnamed(Fault::bad_input, "camera '{:.60}' is degenerate", camera.name);
+        return fail(Fault::bad_input, "import.gltf.camera", "camera '{camera:.60}' is degenerate", camera.name);
     }
     View view = looking_along(glm::dvec3(to_world[3]), forward, up);
     view.near = static_cast<float>(camera.znear);

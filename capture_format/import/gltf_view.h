@@ -7,7 +7,6 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
 #include "capture_format/import/gltf.h"
 #include "capture_format/import/gltf_document.h"
 #include "capture_format/import/seen.h"

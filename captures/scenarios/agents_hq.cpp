@@ -39,7 +39,7 @@ struct Wall {
     Opening opening = Opening::none;
 };
 
-/// Width, lower and upper edge of an opening, metres.
+/// Width, lower and upper edge of an opening, meters.
 struct Hole {
     double half_width = 0, low = 0, high = 0;
 };
@@ -208,7 +208,7 @@ private:
             const bool hangs = light.type != LightType::omni && light.type != LightType::sphere;
             light.position = {floor.x + random_.between(-0.8, 0.8) * half.x, hangs ? height - 0.15 : random_.between(0.9, 2.4),
                               floor.z + random_.between(-0.8, 0.8) * half.y};
-            if (i % 20 == 16) light.intensity = glm::vec3(-0.5f);  // a dark: grey, a warm one would leave blue rims
+            if (i % 20 == 16) light.intensity = glm::vec3(-0.5f);  // a dark: gray, a warm one would leave blue rims
             if (i % 20 == 18) light.clip_planes = {{{0, 1, 0}, -light.position.y + 0.4}, {{1, 0, 0}, -light.position.x}};
             shield(light);
             builder_->frame.lights.push_back(std::move(light));

@@ -2,7 +2,7 @@
 // which walks towards the corner where the arcade's two arms meet. In that corner lies a store room behind a closed door: no
 // light reaches it.
 //
-//   z = -8  +------+---------------------+   y up, metres; the sun comes over the right and the front wall
+//   z = -8  +------+---------------------+   y up, meters; the sun comes over the right and the front wall
 //           |store |   arcade            |
 //   z = -5  +------#--o----o----o----o---#   # piers, o columns; arches between them and a storey above
 //           |      |                     |

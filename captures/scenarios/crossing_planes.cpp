@@ -13,7 +13,7 @@
 namespace strata::scenario {
 namespace {
 
-constexpr double middle = 1.05;  // height of the sculpture's middle, metres
+constexpr double middle = 1.05;  // height of the sculpture's middle, meters
 
 Material sheet(std::string name, glm::vec3 color) {
     Material material = lambert(std::move(name), color);

@@ -26,7 +26,7 @@ glm::dvec3 direction(Random& random) {
 struct Cloud {
     const char* name;
     int sprites;
-    double inner, outer;  ///< metres from the heart at age 1
+    double inner, outer;  ///< meters from the heart at age 1
     double size;
     float alpha;
 };

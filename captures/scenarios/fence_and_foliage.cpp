@@ -15,13 +15,13 @@
 namespace strata::scenario {
 namespace {
 
-constexpr float tile = 0.5f, mesh_width = tile / 4, wire = 0.016f;  // metres: of a texture, of a mesh of the fence, of its wire
+constexpr float tile = 0.5f, mesh_width = tile / 4, wire = 0.016f;  // meters: of a texture, of a mesh of the fence, of its wire
 constexpr double fence_height = 1.8, panel_length = 3;
 
 /// Wires along both diagonals, 4 meshes a side.
 Texture chain_link() {
     return painted("chain link", {.edge = 128, .places = 4}, [](glm::vec2 uv) {
-        const auto across = [](float at) {  // metres from the nearest wire
+        const auto across = [](float at) {  // meters from the nearest wire
             return std::abs(at - std::round(at)) * mesh_width / std::numbers::sqrt2_v<float>;
         };
         const glm::vec2 at = uv * 4.0f;

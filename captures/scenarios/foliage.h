@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <string>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/texture.h"
 
 namespace strata::scenario {
 

@@ -12,7 +12,7 @@
 
 #include "captures/scenarios/builders.h"
 #include "captures/scenarios/frame_builder.h"
-#include "captures/scenarios/modelling.h"
+#include "captures/scenarios/modeling.h"
 #include "captures/scenarios/painting.h"
 #include "captures/scenarios/random.h"
 #include "captures/scenarios/shapes.h"

@@ -15,7 +15,7 @@
 namespace strata::scenario {
 namespace {
 
-/// A wall of two greys 6 m away that fills the view, and a quad of half size 1 for panes. The eye is the origin.
+/// A wall of two grays 6 m away that fills the view, and a quad of half size 1 for panes. The eye is the origin.
 struct Stage {
     FrameBuilder builder;
     std::uint32_t pane = 0;
@@ -118,22 +118,22 @@ Frame foggy_panes(std::uint32_t frame, const ScenarioOptions& options) {
     return std::move(stage.builder.frame);
 }
 
-/// Two columns of 200 panes of alpha .01 over black, each greys i / 199: nearest darkest on the left, nearest brightest on the
+/// Two columns of 200 panes of alpha .01 over black, each grays i / 199: nearest darkest on the left, nearest brightest on the
 /// right. All that is seen are two numbers, .296181 (docs/algorithms/transparency.md R6) and .569839.
 Frame thin_layers(std::uint32_t frame, const ScenarioOptions& options) {
     FrameBuilder builder(frame, options);
     builder.look({.eye = {0, 0, 0}, .target = {0, 0, -4}, .swing = 0.1});
     constexpr std::uint32_t count = 200;
     const std::uint32_t pane = builder.add(quad({1, 1}));
-    std::vector<std::uint32_t> greys;
+    std::vector<std::uint32_t> grays;
     for (std::uint32_t i = 0; i < count; ++i) {
-        const auto grey = static_cast<float>(i) / static_cast<float>(count - 1);
-        greys.push_back(builder.add(unlit("thin layer", {grey, grey, grey, 0.01f})));
+        const auto gray = static_cast<float>(i) / static_cast<float>(count - 1);
+        grays.push_back(builder.add(unlit("thin layer", {gray, gray, gray, 0.01f})));
     }
     for (std::uint32_t i = 0; i < count; ++i) {
         const double depth = 3 + 0.01 * i;  // each pane's inner edge lies on the view's middle plane
-        builder.draw(pane, greys[i], {.position = {-depth, 0, -depth}, .scale = glm::dvec3(depth)});
-        builder.draw(pane, greys[count - 1 - i], {.position = {depth, 0, -depth}, .scale = glm::dvec3(depth)});
+        builder.draw(pane, grays[i], {.position = {-depth, 0, -depth}, .scale = glm::dvec3(depth)});
+        builder.draw(pane, grays[count - 1 - i], {.position = {depth, 0, -depth}, .scale = glm::dvec3(depth)});
     }
     return std::move(builder.frame);
 }

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "capture_format/codec/texture_mips.h"
+#include "capture_format/frame.h"
 #include "capture_format/srgb.h"
 #include "captures/scenarios/random.h"
 

@@ -15,7 +15,7 @@ Frame additive_sparks(std::uint32_t frame, const ScenarioOptions& options) {
     FrameBuilder builder(frame, options);
     builder.look({.eye = {0, 0, 0}, .target = {0, 0, -4}});
     builder.draw(builder.add(quad({8, 8})), builder.add(unlit("dark wall", {0.05f, 0.06f, 0.08f, 1})), {.position = {0, 0, -6}});
-    builder.draw(builder.add(quad({1, 1})), builder.add(unlit("grey pane", {0.3f, 0.3f, 0.3f, 0.5f})),
+    builder.draw(builder.add(quad({1, 1})), builder.add(unlit("gray pane", {0.3f, 0.3f, 0.3f, 0.5f})),
                  {.position = {-0.9, 0, -3}});
     Emitter sparks;
     sparks.name = "sparks";

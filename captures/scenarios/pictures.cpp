@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "capture_format/frame.h"
 #include "captures/scenarios/painting.h"
 #include "captures/scenarios/random.h"
 

@@ -5,7 +5,7 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/texture.h"
 
 namespace strata::scenario {
 

@@ -23,10 +23,10 @@ void add_afternoon(Frame& frame, glm::vec3 direction) {
 }
 
 /// A matt floor of squares, 2 m wide.
-std::uint32_t paving(FrameBuilder& builder, float metres) {
+std::uint32_t paving(FrameBuilder& builder, float meters) {
     Material tiles = lambert("paving", glm::vec3(1));
     tiles.base_color_texture.texture = builder.add(checker(2, {0.52f, 0.47f, 0.4f}, {0.38f, 0.33f, 0.28f}));
-    tiles.base_color_texture.transform = {metres / 4, 0, 0, 0, metres / 4, 0};
+    tiles.base_color_texture.transform = {meters / 4, 0, 0, 0, meters / 4, 0};
     return builder.add(tiles);
 }
 
@@ -37,7 +37,7 @@ std::uint32_t paving(FrameBuilder& builder, float metres) {
 Frame tilted_ground(std::uint32_t frame, const ScenarioOptions& options) {
     FrameBuilder builder(frame, options);
     builder.look({.eye = {0, 3.2, 9}, .target = {0, 1.4, -4}, .vertical_fov = 0.8, .swing = 0.15});
-    const glm::dvec3 rise{0.28, 0, -0.16};  // metres up per metre; in x and -z
+    const glm::dvec3 rise{0.28, 0, -0.16};  // meters up per meter; in x and -z
     const auto ground = [&](double x, double z) { return rise.x * x + rise.z * z; };
     const glm::dvec3 right = glm::normalize(glm::dvec3(1, rise.x, 0)), up = glm::normalize(glm::dvec3(-rise.x, 1, -rise.z));
     Draw& slope = builder.draw(builder.add(box({30, 0.2f, 30})), paving(builder, 60), {});

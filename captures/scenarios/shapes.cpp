@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "capture_format/frame.h"
+
 namespace strata::scenario {
 namespace {
 

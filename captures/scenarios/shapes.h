@@ -6,7 +6,7 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/mesh.h"
 
 namespace strata::scenario {
 

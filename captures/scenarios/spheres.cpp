@@ -38,7 +38,7 @@ Frame thousand_spheres(std::uint32_t frame, const ScenarioOptions& options, Alph
 
 }  // namespace
 
-/// Five spheres each way a metre apart and two cubes, of which back faces are left out: the example `oit` of the Vulkan examples
+/// Five spheres each way a meter apart and two cubes, of which back faces are left out: the example `oit` of the Vulkan examples
 /// by S. Willems.
 Frame spheres_125(std::uint32_t frame, const ScenarioOptions& options) {
     FrameBuilder builder(frame, options);

@@ -34,12 +34,12 @@ Frame opaque_only(std::uint32_t frame, const ScenarioOptions& options) {
     return std::move(builder.frame);
 }
 
-/// A white furnace with a grey sphere: radiance 1 from everywhere, so the sphere is 0.5 and the background 1.
+/// A white furnace with a gray sphere: radiance 1 from everywhere, so the sphere is 0.5 and the background 1.
 Frame one_sphere(std::uint32_t frame, const ScenarioOptions& options) {
     FrameBuilder builder(frame, options);
     const double approach = 0.3 * (1 - builder.progress());
     builder.look({.eye = {0, 0, 3.2 + approach}, .target = {0, 0, 0}, .swing = 0});
-    builder.draw(builder.add(sphere(1, 64)), builder.add(lambert("grey", glm::vec3(0.5f))), {});
+    builder.draw(builder.add(sphere(1, 64)), builder.add(lambert("gray", glm::vec3(0.5f))), {});
     builder.frame.hemisphere = {.sky = glm::vec3(1), .ground = glm::vec3(1)};
     builder.frame.background = glm::vec3(1);
     return std::move(builder.frame);

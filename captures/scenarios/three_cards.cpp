@@ -1,5 +1,5 @@
 // Three cards of alpha 0.99 within 2 cm of depth stand before a dark character on a bright wall. Exactly, one part in a million
-// of the character comes through; a method that treats the three as one lets a hundredth through, and the silhouette shows.
+// of the character comes through; a technique that treats the three as one lets a hundredth through, and the silhouette shows.
 #include <utility>
 
 #include "captures/scenarios/builders.h"

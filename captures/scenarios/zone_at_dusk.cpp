@@ -13,7 +13,7 @@
 #include "captures/scenarios/builders.h"
 #include "captures/scenarios/foliage.h"
 #include "captures/scenarios/frame_builder.h"
-#include "captures/scenarios/modelling.h"
+#include "captures/scenarios/modeling.h"
 #include "captures/scenarios/painting.h"
 #include "captures/scenarios/parts.h"
 #include "captures/scenarios/pictures.h"

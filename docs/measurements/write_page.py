@@ -7,7 +7,7 @@ RESULTS are folders of outputs, or .tar.gz files of them: JSON by `strata ... --
     devices.json              strata --list-gpus
     model-STAGE-SCENE-at-N.txt   strata report --stage STAGE --defaults --samples N --repeats 1
     hard-cases.txt            strata report --hard-cases
-    repeat-NAME.err           standard error of strata replay --repeat 20
+    repeat-NAME.err           standard error of strata replay --repeats 20
     i/SCENE/*.exr             strata replay -o
     bench-device.txt, bench-TECHNIQUE.txt, steps-SCENE-at-N.txt (replay --time), time-SCENE.txt (report), counted-TECHNIQUE.txt and
     uncounted-TECHNIQUE.txt (replay --time with the built-in shaders, and with shaders without their counters)
@@ -134,7 +134,7 @@ def hard_lines(results, reference):
 
 def repeat_lines(results):
     rows = [(n.removeprefix("repeat-").removesuffix(".err"), " ".join(results.text(n).split())) for n in results.names("repeat-", ".err")]
-    return (["## Twenty repeats", ""] + table(["frame", "strata replay --repeat 20 says"], rows)) if rows else []
+    return (["## Twenty repeats", ""] + table(["frame", "strata replay --repeats 20 says"], rows)) if rows else []
 
 
 def same_lines(results, strata):
@@ -148,7 +148,7 @@ def same_lines(results, strata):
     for scene, pictures in groups.items():
         for technique, path in pictures[1:]:
             done = subprocess.run([strata, "diff", pictures[0][1], path, "--json"], capture_output=True, text=True)
-            images = [i for f in json.loads(done.stdout)["frames"] for a in f["acts"] for i in a["images"]] if done.returncode < 2 else []
+            images = [i for f in json.loads(done.stdout)["frames"] for a in f["passes"] for i in a["images"]] if done.returncode < 2 else []
             verdict = "same to the bit" if images and all(i["identical"] for i in images) else "differs"
             rows.append((scene, technique, pictures[0][0], verdict))
     return (["## Pictures that are promised to be the same", ""] + table(["frame", "technique", "against", ""], rows)) if rows else []
@@ -163,7 +163,7 @@ def picture_lines(results, reference, strata):
         if done.returncode > 1:
             rows.append((name, "cannot be compared", "", "", ""))
             continue
-        images = {i["image"]: i for f in json.loads(done.stdout)["frames"] for a in f["acts"] for i in a["images"]}
+        images = {i["image"]: i for f in json.loads(done.stdout)["frames"] for a in f["passes"] for i in a["images"]}
         display = images.get("display", {})
         color = images.get("color", {})
         error = lambda image, key: short(image["error"][key]) if "error" in image else "0"
@@ -241,7 +241,7 @@ def report_lines(results):
         for row in report["rows"]:
             if "not_supported" in row:
                 continue
-            errors = {e["metric"]: e["value"] for e in row.get("touched_error", row["method_error"])}
+            errors = {e["metric"]: e["value"] for e in row.get("touched_error", row["technique_error"])}
             rows.append((label(row), short(errors.get("relative rmse")), spread(row["stage_ms"]), spread(row.get("time"), 2),
                          f"{row['bytes_per_pixel']:.0f}", "beyond tolerance" if row["implementation_error"].get("doubt") else ""))
         lines += [f"## {report['stage']} of {report['capture_name'].split('-')[0]}, {report['extent'][0]} x {report['extent'][1]}", "",

@@ -1,8 +1,11 @@
 #include "passes/combine/formulas.h"
 
 #include <algorithm>
+#include <string_view>
 
+#include "capture_format/frame/frame.h"
 #include "passes/reference/decoded.h"
+#include "passes/stage_input.h"
 
 namespace strata::combine {
 namespace {

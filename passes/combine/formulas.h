@@ -4,7 +4,12 @@
 #include <functional>
 
 #include "passes/reference/shade.h"
-#include "passes/stages.h"
+
+namespace strata {
+
+struct StageInput;  // passes/stage_input.h
+
+}  // namespace strata
 
 namespace strata::combine {
 

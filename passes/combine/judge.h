@@ -3,11 +3,13 @@
 
 #include <vector>
 
-#include "passes/stages.h"
+#include "passes/figure.h"
 
 namespace strata {
 
+struct StageInput;  // passes/stage_input.h
+
 /// First the root mean square error of display light (0..1).
-std::vector<Figure> combine_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
+std::vector<Metric> combine_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
 
 }  // namespace strata

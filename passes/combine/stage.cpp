@@ -1,4 +1,5 @@
 // The stage combine: what it writes, and when a frame does not need it.
+#include "capture_format/frame_features.h"
 #include "passes/combine/judge.h"
 #include "passes/combine/truth.h"
 #include "passes/stages.h"

@@ -1,6 +1,8 @@
 #include "passes/combine/truth.h"
 
+#include "capture_format/frame/frame.h"
 #include "passes/combine/formulas.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 

@@ -2,10 +2,11 @@
 #include "passes/culling/judge.h"
 
 #include "passes/reference/fragments.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 
-std::vector<Figure> culling_judge(const ImageSet& result, const ImageSet& truth, const StageInput& input) {
+std::vector<Metric> culling_judge(const ImageSet& result, const ImageSet& truth, const StageInput& input) {
     const ReferenceImage& drawn = result.at("visible");
     const ReferenceImage& exact = truth.at("visible");
     const std::size_t draws = opaque_draws(input.frame).size();

@@ -1,4 +1,5 @@
 // The stage culling: what it writes, and when a frame does not need it.
+#include "capture_format/frame_features.h"
 #include "passes/culling/judge.h"
 #include "passes/culling/truth.h"
 #include "passes/stages.h"

@@ -3,8 +3,10 @@
 
 #include <unordered_map>
 
+#include "capture_format/frame/no_index.h"
 #include "passes/culling/visible_image.h"
 #include "passes/reference/fragments.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 

@@ -1,9 +1,11 @@
 // The exact visible set: opaque and masked draws that own at least one visible sample.
 #pragma once
 
-#include "passes/stages.h"
+#include "passes/image_set.h"
 
 namespace strata {
+
+struct StageInput;  // passes/stage_input.h
 
 /// "visible": 1 for such draws, laid out as FrameImages::visible; undecided where all samples of a draw hang on rounding.
 ImageSet culling_truth(const StageInput&);

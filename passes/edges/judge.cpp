@@ -1,11 +1,14 @@
 // Judges an edge mask.
 #include "passes/edges/judge.h"
 
+#include <cstddef>
+
 #include "passes/reference/difference.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 
-std::vector<Figure> edges_judge(const ImageSet& result, const ImageSet& truth, const StageInput&) {
+std::vector<Metric> edges_judge(const ImageSet& result, const ImageSet& truth, const StageInput&) {
     const auto got = result.find("edges"), wanted = truth.find("edges");
     double missed = 0, needless = 0, flagged = 0, pixels = 0;
     if (got != result.end() && wanted != truth.end()) {

@@ -1,12 +1,13 @@
 #include "passes/edges/mark.h"
 
 #include "passes/edges/edges.shared.h"
+#include "passes/frame_images.h"
 
 namespace strata::edges {
 
 bool has_samples(const FrameImages& frame) { return frame.samples > 1 && frame.gbuffer0; }
 
-ComputePass mark_edges(Graph& graph, FrameImages& frame, std::string shader) {
+ComputeStep mark_edges(Graph& graph, FrameImages& frame, std::string shader) {
     frame.edges = graph.create("edges", {.extent = frame.extent, .format = Format::r8ui});
     return graph.compute(std::move(shader)).samples("emission", frame.emission).stores("edges", frame.edges).over(frame.extent);
 }

@@ -4,7 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "passes/technique.h"
+#include "passes/graph/graph.h"
+#include "passes/settings.h"
+
+namespace strata {
+
+struct FrameImages;  // passes/frame_images.h
+
+}  // namespace strata
 
 namespace strata::edges {
 
@@ -12,7 +19,7 @@ namespace strata::edges {
 bool has_samples(const FrameImages&);
 
 /// Declares frame.edges and the step of a compute shader that includes passes/edges/mark.glsl.
-ComputePass mark_edges(Graph&, FrameImages&, std::string shader);
+ComputeStep mark_edges(Graph&, FrameImages&, std::string shader);
 
 /// Rows of EdgeCounters.
 std::vector<Counter> edge_counters();

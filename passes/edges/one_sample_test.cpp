@@ -1,7 +1,10 @@
 // What every technique of the stage does where pixels have one sample.
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 
 namespace strata::edges {
 namespace {

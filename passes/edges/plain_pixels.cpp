@@ -1,9 +1,12 @@
 #include "passes/edges/plain_pixels.h"
 
+#include "passes/frame_images.h"
+#include "passes/stage_input.h"
+
 namespace strata {
 
-ComputePass sample_edges(ComputePass pass, const FrameImages& frame) {
-    return pass.samples("edges", frame.edges).fixes("has_edges", frame.edges ? 1u : 0u);
+ComputeStep sample_edges(ComputeStep builder, const FrameImages& frame) {
+    return builder.samples("edges", frame.edges).fixes("has_edges", frame.edges ? 1u : 0u);
 }
 
 bool is_plain_pixel(const StageInput& input, std::uint32_t x, std::uint32_t y) {

@@ -1,4 +1,5 @@
 // The stage edges: what it writes, and when a frame does not need it.
+#include "capture_format/frame_features.h"
 #include "passes/edges/judge.h"
 #include "passes/edges/truth.h"
 #include "passes/stages.h"

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "passes/frame_images.h"
 #include "passes/gbuffer/surface_at.h"
 
 namespace strata::edges {
@@ -13,8 +14,8 @@ SurfaceLimits surface_limits(double normal_angle, double depth_step, double colo
             .color_step = static_cast<float>(color_step)};
 }
 
-ComputePass test_surfaces(ComputePass pass, const FrameImages& frame, std::uint32_t tests) {
-    return sample_gbuffer(pass, frame).fixes("tests", tests);
+ComputeStep test_surfaces(ComputeStep builder, const FrameImages& frame, std::uint32_t tests) {
+    return sample_gbuffer(builder, frame).fixes("tests", tests);
 }
 
 }  // namespace strata::edges

@@ -37,6 +37,6 @@ inline constexpr std::string_view added_tests_help =
 SurfaceLimits surface_limits(double normal_angle, double depth_step, double color_step);
 
 /// Binds the G-buffer and fixes which tests (bits test_*) a shader makes that includes passes/edges/surface_tests.glsl.
-ComputePass test_surfaces(ComputePass, const FrameImages&, std::uint32_t tests);
+ComputeStep test_surfaces(ComputeStep, const FrameImages&, std::uint32_t tests);
 
 }  // namespace strata::edges

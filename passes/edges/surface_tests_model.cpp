@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "passes/edges/edges.shared.h"
+#include "passes/stage_input.h"
 
 namespace strata::edges {
 namespace {

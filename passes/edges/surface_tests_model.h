@@ -1,9 +1,16 @@
 // The tests of two samples' surfaces in double, for models of techniques that make them.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
-#include "passes/stages.h"
+#include "passes/image_set.h"
+
+namespace strata {
+
+struct StageInput;  // passes/stage_input.h
+
+}  // namespace strata
 
 namespace strata::edges {
 

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "passes/stage_input.h"
+
 namespace strata {
 
 namespace {

@@ -1,9 +1,11 @@
 // Which pixels need every sample shaded: those whose samples do not all hold the same surface.
 #pragma once
 
-#include "passes/stages.h"
+#include "passes/image_set.h"
 
 namespace strata {
+
+struct StageInput;  // passes/stage_input.h
 
 /// "edges": 1 where any sample's G-buffer or emission texel differs in any bit from sample 0 (docs/algorithms/deferred.md 3.2,
 /// D1), or where only some samples are covered. Empty at one sample.

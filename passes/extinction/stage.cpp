@@ -1,5 +1,7 @@
-// The stage extinction: what it writes, and when a frame does not need it.
+
+#include "capture_format/frame_features.h"
 #include "passes/stages.h"
+// The stage extinction: what it writes, and when a frame does not need it.
 
 namespace strata::extinction {
 namespace {

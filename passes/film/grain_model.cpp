@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
 #include "passes/reference/pcg.h"
 
 namespace strata::film {

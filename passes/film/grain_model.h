@@ -3,7 +3,13 @@
 
 #include <cstdint>
 
-#include "passes/stages.h"
+#include <glm/glm.hpp>
+
+namespace strata {
+
+struct Frame;  // capture_format/frame.h
+
+}  // namespace strata
 
 namespace strata::film {
 

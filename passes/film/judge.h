@@ -3,11 +3,13 @@
 
 #include <vector>
 
-#include "passes/stages.h"
+#include "passes/figure.h"
 
 namespace strata {
 
+struct StageInput;  // passes/stage_input.h
+
 /// First the root mean square error of display light. Then how much brighter or darker the whole picture is: grain must not be.
-std::vector<Figure> film_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
+std::vector<Metric> film_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
 
 }  // namespace strata

@@ -1,4 +1,5 @@
 // The stage film: what it writes, and when a frame does not need it.
+#include "capture_format/frame_features.h"
 #include "passes/film/judge.h"
 #include "passes/film/truth.h"
 #include "passes/stages.h"

@@ -1,6 +1,7 @@
 #include "passes/film/truth.h"
 
 #include "passes/film/grain_model.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 

@@ -2,9 +2,11 @@
 // 24 times per second.
 #pragma once
 
-#include "passes/stages.h"
+#include "passes/image_set.h"
 
 namespace strata {
+
+struct StageInput;  // passes/stage_input.h
 
 ImageSet film_truth(const StageInput&);
 

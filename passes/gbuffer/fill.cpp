@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "capture_format/frame/frame.h"
 #include "passes/choice_names.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/coverage/fill_coverage.h"
-#include "passes/gbuffer/fill.shared.h"
+#include "passes/gbuffer/fill_params.h"
 #include "passes/gbuffer/layout.shared.h"
 #include "passes/gbuffer/surfaces.h"
+#include "passes/graph/graph.h"
 #include "passes/registry.h"
 #include "passes/scene/material_uses.h"
 #include "passes/scene/scene_facts.h"
@@ -54,12 +57,12 @@ std::uint32_t layout_number(const FrameImages& frame, const Layout& layout, cons
 }
 
 /// The draw into the targets; in front of it, of two passes, the one into depth.
-DrawPass fill_pass(Graph& graph, FrameImages& frame, const Layout& layout, const FillParams& params) {
+DrawStep fill_pass(Graph& graph, FrameImages& frame, const Layout& layout, const FillParams& params) {
     const bool at_sample = shades_samples(frame, params);
     const Coverage coverage = declare_coverage(graph, frame, params.masked, at_sample ? ShadingRate::sample : ShadingRate::pixel);
-    const bool has_depth = coverage.method == masked_hardware;
+    const bool has_depth = coverage.mode == masked_hardware;
     if (has_depth) draw_depth_by_alpha(graph, frame);
-    DrawPass fill = graph.draw(fmt::format("{}/fill{}", layout.technique, at_sample ? "_sample" : ""), frame.opaque);
+    DrawStep fill = graph.draw(fmt::format("{}/fill{}", layout.technique, at_sample ? "_sample" : ""), frame.opaque);
     fix_materials(fill, frame, Surfaces::opaque);
     add_coverage(fill, coverage);
     if (at_sample) fill.fixes("sample_near", frame.recorded->view.near);
@@ -93,7 +96,7 @@ void add_fill(Graph& graph, FrameImages& frame, const Layout& layout, const Sett
     const bool begins_empty = !frame.depth;
     if (begins_empty) frame.depth = empty_depth(graph, frame);
     if (frame.opaque.count > 0) {
-        DrawPass fill = fill_pass(graph, frame, layout, params);
+        DrawStep fill = fill_pass(graph, frame, layout, params);
         fill.covers(gbuffer0).covers(gbuffer1).covers(emission);
         if (has_third) fill.covers(gbuffer2);
     }

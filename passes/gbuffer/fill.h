@@ -5,8 +5,15 @@
 #include <string_view>
 #include <vector>
 
-#include "passes/frame_images.h"
-#include "passes/technique.h"
+#include "passes/graph/format.h"
+#include "passes/settings.h"
+
+namespace strata {
+
+class Graph;         // passes/graph/graph.h
+struct FrameImages;  // passes/frame_images.h
+
+}  // namespace strata
 
 namespace strata::gbuffer {
 

@@ -5,9 +5,11 @@
 #include <iterator>
 #include <numbers>
 
+#include "capture_format/frame/frame.h"
 #include "passes/gbuffer/coverage/judge.h"
 #include "passes/reference/place_code.h"
 #include "passes/reference/shade.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 namespace {
@@ -68,7 +70,7 @@ void add(Sums& sums, const Texel& got, const Texel& wanted) {
 
 }  // namespace
 
-std::vector<Figure> gbuffer_judge(const ImageSet& result, const ImageSet& truth, const StageInput& input) {
+std::vector<Metric> gbuffer_judge(const ImageSet& result, const ImageSet& truth, const StageInput& input) {
     const ReferenceImage& normals = truth.at("surface_normal");
     Sums sums;
     for (std::size_t i = 0; i < normals.texels.size(); ++i) {
@@ -83,7 +85,7 @@ std::vector<Figure> gbuffer_judge(const ImageSet& result, const ImageSet& truth,
     const double surfaces = std::max(1.0, sums.surfaces);
     const auto mean = [&](double sum) { return infinite_if_nan(sum / surfaces); };
     const auto rms = [&](double sum) { return infinite_if_nan(std::sqrt(sum / surfaces)); };
-    std::vector<Figure> figures = {{"normal angle rms", "degrees", rms(sums.angle)},
+    std::vector<Metric> metrics = {{"normal angle rms", "degrees", rms(sums.angle)},
                                    {"normal angle worst", "degrees", sums.worst_angle},
                                    {"normal angle mean", "degrees", mean(sums.angles)},
                                    {"position along", "of distance", rms(sums.along)},
@@ -94,8 +96,8 @@ std::vector<Figure> gbuffer_judge(const ImageSet& result, const ImageSet& truth,
                                    {"occlusion rmse", "", rms(sums.occlusion)},
                                    {"other lighting model", "%", 100 * mean(sums.other_models)},
                                    {"coverage differs", "samples", sums.disagreeing, true}};
-    std::ranges::copy(gbuffer::coverage_figures(result, truth, input.frame), std::back_inserter(figures));
-    return figures;
+    std::ranges::copy(gbuffer::coverage_metrics(result, truth, input.frame), std::back_inserter(metrics));
+    return metrics;
 }
 
 }  // namespace strata

@@ -3,11 +3,13 @@
 
 #include <vector>
 
-#include "passes/stages.h"
+#include "passes/figure.h"
 
 namespace strata {
 
+struct StageInput;  // passes/stage_input.h
+
 /// First the root mean square angle between normals, in degrees. Samples whose coverage hangs on rounding do not count.
-std::vector<Figure> gbuffer_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
+std::vector<Metric> gbuffer_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
 
 }  // namespace strata

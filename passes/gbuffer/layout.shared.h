@@ -11,7 +11,7 @@ const uint layout_decoded = 0xffu;            // no technique: the images are su
 const uint layout_shaded_at_sample = 0x100u;  // attributes are the sample's and not the pixel center's
 const uint layout_reads_depth = 0x200u;       // view depth is the depth buffer's
 const uint layout_readers_mask = 0xffffu;     // what readers of surfaces must know
-const uint layout_masked_shift = 16u;  // above: the method of coverage/coverage.shared.h that masked surfaces were drawn by
+const uint layout_masked_shift = 16u;         // above: the mode of coverage/coverage.shared.h that masked surfaces were drawn by
 
 #ifdef __cplusplus
 }

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
 #include "passes/gbuffer/codes.h"
-#include "passes/gbuffer/fill.shared.h"
+#include "passes/gbuffer/fill_params.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 
 namespace strata::gbuffer {
 namespace {

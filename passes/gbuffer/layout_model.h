@@ -6,7 +6,13 @@
 #include <glm/glm.hpp>
 
 #include "passes/gbuffer/nearest.h"
-#include "passes/technique.h"
+
+namespace strata {
+
+class Settings;     // passes/settings.h
+struct StageInput;  // passes/stage_input.h
+
+}  // namespace strata
 
 namespace strata::gbuffer {
 

@@ -1,7 +1,9 @@
 #include "passes/gbuffer/nearest.h"
 
+#include "capture_format/frame/frame.h"
 #include "passes/gbuffer/coverage/mask_tests.h"
 #include "passes/reference/place_code.h"
+#include "passes/stage_input.h"
 
 namespace strata::gbuffer {
 namespace {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "passes/gbuffer/coverage/coverage.shared.h"
+#include "passes/image_set.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/shade.h"
-#include "passes/stages.h"
 
 namespace strata::gbuffer {
 
@@ -19,7 +19,7 @@ struct NearestSurface {
 };
 
 /// In the order of ReferenceImage's texels, layer = sample. Backs of one-sided faces and what the alpha test cuts are not there.
-/// `masked` is a method of passes/gbuffer/coverage/coverage.shared.h.
+/// `masked` is a mode of passes/gbuffer/coverage/coverage.shared.h.
 std::vector<NearestSurface> nearest_surfaces(const Frame&, ShadeAt, std::uint32_t masked = masked_clip);
 
 /// surface_normal, surface_color, surface_material, emission and depth_layers as passes/frame_images.h defines them.

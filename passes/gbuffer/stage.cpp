@@ -1,4 +1,5 @@
 // The stage gbuffer: what it writes, and when a frame does not need it.
+#include "capture_format/frame_features.h"
 #include "passes/gbuffer/judge.h"
 #include "passes/gbuffer/truth.h"
 #include "passes/stages.h"

@@ -15,8 +15,8 @@ struct GBufferTexel {
 
 struct Surface {
     bool exists;      // false on the background: nothing else is then defined
-    vec3 normal;      // view space, unit; of hair: along the fibre, towards its tip
-    float z;          // view depth, metres
+    vec3 normal;      // view space, unit; of hair: along the fiber, towards its tip
+    float z;          // view depth, meters
     vec3 base_color;  // linear
     float roughness;
     float metallic;

@@ -1,5 +1,6 @@
 #include "passes/gbuffer/surfaces.h"
 
+#include "passes/frame_images.h"
 #include "passes/gbuffer/layout.shared.h"
 #include "passes/gbuffer/surface_at.h"
 

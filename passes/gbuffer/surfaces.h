@@ -1,7 +1,12 @@
 // The G-buffer decoded into float images, for whoever asks: reports, models, debug views.
 #pragma once
 
-#include "passes/frame_images.h"
+namespace strata {
+
+class Graph;         // passes/graph/graph.h
+struct FrameImages;  // passes/frame_images.h
+
+}  // namespace strata
 
 namespace strata::gbuffer {
 

@@ -2,6 +2,7 @@
 
 #include "passes/gbuffer/coverage/judge.h"
 #include "passes/gbuffer/nearest.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 

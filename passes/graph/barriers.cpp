@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <functional>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/no_index.h"
 #include "passes/graph/compiling.h"
+#include "passes/graph/graph.h"
 
 namespace strata {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "capture_format/nearest_name.h"
 #include "passes/graph/compiling.h"
+#include "passes/graph/graph.h"
 
 namespace strata {
 namespace {
@@ -26,13 +27,11 @@ std::string_view verb(Access access) {
     }
 }
 
-std::string quoted(const Graph& graph, Image image) { return "'" + graph.record(image).name + "'"; }
-
 Result<const Shader*> find_shader(const ShaderLibrary& library, const std::string& name) {
     if (const Shader* shader = library.find(name)) return shader;
     const std::vector<std::string> names = library.names();
     const std::vector<std::string_view> known(names.begin(), names.end());
-    return fail_unnamed(Fault::usage, "no shader {}{}", name, did_you_mean(name, known));
+    return fail(Fault::usage, "shader.unknown", "there is no shader {shader}{suggestion}", name, did_you_mean(name, known));
 }
 
 /// A draw's own vertex shader, or the one for the scene's meshes; its fragment shader may be missing where only depth is written.
@@ -79,18 +78,20 @@ Result<Binding> given(const Graph& graph, const Step& step, const Shader& shader
     const bool is_buffer = wanted.kind == BindingKind::storage_buffer || wanted.kind == BindingKind::uniform_buffer;
     const Graph::Offer* offer = is_buffer ? find_offer(graph, step, wanted.name) : nullptr;
     if (offer) return Binding{.name = wanted.name, .access = access_of(wanted), .buffer = offer->buffer};
-    return fail_unnamed(Fault::usage, "{} declares '{}', and the step binds nothing to it", shader.name, wanted.name);
+    return fail(Fault::usage, "graph.not_bound", "{shader} declares '{binding}', and the step binds nothing to it", shader.name,
+                wanted.name);
 }
 
 Result<void> check_kind(const Shader& shader, const ShaderBinding& wanted, const Binding& binding) {
     const bool wants_buffer = wanted.kind == BindingKind::storage_buffer || wanted.kind == BindingKind::uniform_buffer;
     const auto mismatch = [&](std::string_view is) {
-        return fail_unnamed(Fault::usage, "{}: '{}' is {}, but the step {} {}", shader.name, wanted.name, is,
-                            verb(binding.access), binding.buffer ? "a buffer" : "an image");
+        return fail(Fault::usage, "graph.binding_kind", "{shader}: '{binding}' is {declared}, but the step {access} {bound}",
+                    shader.name, wanted.name, is, verb(binding.access), binding.buffer ? "a buffer" : "an image");
     };
     if (wants_buffer && binding.image) return mismatch("a buffer");
     if (wants_buffer && !binding.buffer)
-        return fail_unnamed(Fault::usage, "{}: '{}' is bound to no buffer", shader.name, wanted.name);
+        return fail(Fault::usage, "graph.no_buffer_bound", "{shader}: '{binding}' is bound to no buffer", shader.name,
+                    wanted.name);
     if (!wants_buffer && binding.buffer) return mismatch("an image");
     if (wanted.kind == BindingKind::sampled_image && binding.access != Access::sampled) return mismatch("a sampler");
     if (wanted.kind == BindingKind::storage_image && binding.access == Access::sampled) return mismatch("a storage image");
@@ -101,29 +102,36 @@ Result<void> check_kind(const Shader& shader, const ShaderBinding& wanted, const
 Result<void> check_direction(const Shader& shader, const ShaderBinding& wanted, const Binding& binding) {
     const std::string_view does = verb(binding.access);
     if (!writes(binding.access) && wanted.written)
-        return fail_unnamed(Fault::usage, "{}: '{}' is not readonly, but the step only {} it", shader.name, wanted.name, does);
+        return fail(Fault::usage, "graph.not_readonly", "{shader}: '{binding}' is not readonly, but the step only {access} it",
+                    shader.name, wanted.name, does);
     if (writes(binding.access) && !wanted.written)
-        return fail_unnamed(Fault::usage, "{}: '{}' is readonly, but the step {} it", shader.name, wanted.name, does);
+        return fail(Fault::usage, "graph.readonly_written", "{shader}: '{binding}' is readonly, but the step {access} it",
+                    shader.name, wanted.name, does);
     if (binding.access == Access::stored && wanted.read)
-        return fail_unnamed(Fault::usage, "{}: '{}' is not writeonly, but the step only stores it", shader.name, wanted.name);
+        return fail(Fault::usage, "graph.not_writeonly", "{shader}: '{binding}' is not writeonly, but the step only stores it",
+                    shader.name, wanted.name);
     const bool nothing = !binding.image && !binding.buffer;
     if (nothing && writes(binding.access))
-        return fail_unnamed(Fault::usage, "{}: the step {} '{}', but gives it no image", shader.name, does, wanted.name);
+        return fail(Fault::usage, "graph.no_image_bound", "{shader}: the step {access} '{binding}', but binds no image to it",
+                    shader.name, does, wanted.name);
     return {};
 }
 
-Result<void> check_part(const Shape& shape, const Part& part, const std::string& what) {
-    if (part.mip && *part.mip >= shape.mips) return fail_unnamed(Fault::usage, "{} has no mip {}", what, *part.mip);
-    if (part.layer && *part.layer >= shape.layers) return fail_unnamed(Fault::usage, "{} has no layer {}", what, *part.layer);
+Result<void> check_part(const Shape& shape, const Part& part, const std::string& image, const std::string& used_by) {
+    if (part.mip && *part.mip >= shape.mips)
+        return fail(Fault::usage, "graph.no_mip", "{user}: image '{image}' has no mip {mip}", used_by, image, *part.mip);
+    if (part.layer && *part.layer >= shape.layers)
+        return fail(Fault::usage, "graph.no_layer", "{user}: image '{image}' has no layer {layer}", used_by, image, *part.layer);
     return {};
 }
 
 /// The image's shape and format against the variable's type.
 Result<void> check_image(const Graph& graph, const Shader& shader, const ShaderBinding& wanted, const Binding& binding) {
     const Shape& shape = graph.shape(binding.image);
-    const std::string name = quoted(graph, binding.image);
+    const std::string& name = graph.record(binding.image).name;
     const auto mismatch = [&](std::string_view is, std::string_view has) {
-        return fail_unnamed(Fault::usage, "{}: '{}' is {}, but image {} {}", shader.name, wanted.name, is, name, has);
+        return fail(Fault::usage, "graph.image_type", "{shader}: '{binding}' is {declared}, but image '{image}' {found}",
+                    shader.name, wanted.name, is, name, has);
     };
     const FormatRow& format = row(shape.format);
     if ((wanted.dimension == ImageDimension::three) != (shape.extent.depth > 1))
@@ -133,12 +141,13 @@ Result<void> check_image(const Graph& graph, const Shader& shader, const ShaderB
                                    : mismatch("not multisampled", "has several samples");
     if (!wanted.arrayed && shape.layers > 1 && !binding.part.layer) return mismatch("not an array", "has several layers");
     if (wanted.integer != (format.kind == FormatKind::integer))
-        return mismatch(wanted.integer ? "integer" : "not integer", format.name);
-    if (wanted.format && *wanted.format != shape.format) return mismatch(row(*wanted.format).name, format.name);
+        return mismatch(wanted.integer ? "integer" : "not integer", fmt::format("is {}", format.name));
+    if (wanted.format && *wanted.format != shape.format)
+        return mismatch(row(*wanted.format).name, fmt::format("is {}", format.name));
     const bool storage = wanted.kind == BindingKind::storage_image;
     if (storage && format.kind == FormatKind::depth) return mismatch("a storage image", "is a depth image");
     if (storage && shape.mips > 1 && !binding.part.mip) return mismatch("a storage image", "has several mips and none is named");
-    return check_part(shape, binding.part, shader.name + ": image " + name);
+    return check_part(shape, binding.part, name, shader.name);
 }
 
 PlannedBinding planned_binding(const Binding& binding, const ShaderBinding& wanted) {
@@ -172,12 +181,15 @@ Result<void> add_once(std::vector<PlannedBinding>& all, const PlannedBinding& pl
     const auto neighbor = std::ranges::find_if(
         all, [&](const PlannedBinding& p) { return p.set == planned.set && p.slot == planned.slot && p.binding.name != name; });
     if (neighbor != all.end())
-        return fail_unnamed(Fault::usage, "{} declares '{}' where the step's other shader declares '{}': set {}, binding {}",
-                            shader.name, name, neighbor->binding.name, planned.set, planned.slot);
+        return fail(Fault::usage, "graph.binding_place_taken",
+                    "{shader} declares '{binding}' where the step's other shader declares '{other}': set {set}, binding {slot}",
+                    shader.name, name, neighbor->binding.name, planned.set, planned.slot);
     if (known == all.end()) {
         all.push_back(planned);
     } else if (known->set != planned.set || known->slot != planned.slot || known->kind != planned.kind) {
-        return fail_unnamed(Fault::usage, "{} declares '{}' elsewhere than the step's other shader does", shader.name, name);
+        return fail(Fault::usage, "graph.binding_in_two_places",
+                    "{shader} declares '{binding}' with another set, binding or kind than the step's other shader", shader.name,
+                    name);
     }
     return {};
 }
@@ -208,13 +220,13 @@ Result<void> check_unknown_names(const PlannedStep& planned) {
     }
     for (const Binding& binding : planned.step.bindings) {
         if (is_argument(binding.access) || std::ranges::find(bindings, binding.name) != bindings.end()) continue;
-        return fail_unnamed(Fault::usage, "{} uses no '{}'{}", planned.shaders.back()->name, binding.name,
-                            did_you_mean(binding.name, bindings));
+        return fail(Fault::usage, "graph.unknown_binding", "{shader} uses no '{binding}'{suggestion}",
+                    planned.shaders.back()->name, binding.name, did_you_mean(binding.name, bindings));
     }
     for (const Fixed& fixed : planned.step.fixed) {
         if (std::ranges::find(constants, fixed.name) != constants.end()) continue;
-        return fail_unnamed(Fault::usage, "{} has no specialization constant '{}'{}", planned.shaders.back()->name, fixed.name,
-                            did_you_mean(fixed.name, constants));
+        return fail(Fault::usage, "graph.unknown_constant", "{shader} has no specialization constant '{constant}'{suggestion}",
+                    planned.shaders.back()->name, fixed.name, did_you_mean(fixed.name, constants));
     }
     return {};
 }
@@ -223,11 +235,13 @@ Result<void> check_push(const PlannedStep& planned) {
     const auto largest = std::ranges::max_element(planned.shaders, {}, [](const Shader* shader) { return shader->push_bytes; });
     const std::uint32_t wanted = largest == planned.shaders.end() ? 0 : (*largest)->push_bytes;
     if (wanted > largest_push)
-        return fail_unnamed(Fault::usage, "{} declares {} bytes of push constants; devices promise {}", (*largest)->name, wanted,
-                            largest_push);
+        return fail(Fault::usage, "graph.push_too_large",
+                    "{shader} declares {bytes} bytes of push constants; devices guarantee {limit}", (*largest)->name, wanted,
+                    largest_push);
     if (planned.step.push.size() != wanted)
-        return fail_unnamed(Fault::usage, "{} declares {} bytes of push constants, but the step pushes {}", planned.step.name,
-                            wanted, planned.step.push.size());
+        return fail(Fault::usage, "graph.push_size",
+                    "{step} declares {declared} bytes of push constants, but the step pushes {bytes}", planned.step.name, wanted,
+                    planned.step.push.size());
     return {};
 }
 
@@ -237,23 +251,26 @@ Extent extent_of(const Shape& shape, const Part& part) {
 }
 
 Result<void> check_attachment(const Graph& graph, const Step& step, const Attachment& attachment) {
-    if (!attachment.image) return fail_unnamed(Fault::usage, "{} draws into no image", step.name);
+    if (!attachment.image) return fail(Fault::usage, "graph.no_attachment_image", "{step} draws into no image", step.name);
     const Shape& shape = graph.shape(attachment.image);
     const Attachment& first = step.attachments.front();
-    const std::string name = quoted(graph, attachment.image);
+    const std::string& name = graph.record(attachment.image).name;
     const bool is_depth = attachment.access == Access::depth_tested || attachment.access == Access::depth_written;
     if (is_depth != (row(shape.format).kind == FormatKind::depth))
-        return fail_unnamed(Fault::usage, "{} draws {} into {}, which is {}", step.name, is_depth ? "depth" : "color", name,
-                            row(shape.format).name);
+        return fail(Fault::usage, "graph.attachment_format", "{step} draws {aspect} into '{image}', which is {format}", step.name,
+                    is_depth ? "depth" : "color", name, row(shape.format).name);
     if (shape.samples != graph.shape(first.image).samples)
-        return fail_unnamed(Fault::usage, "{} draws into {} with {} samples and into {} with {}", step.name,
-                            quoted(graph, first.image), graph.shape(first.image).samples, name, shape.samples);
+        return fail(Fault::usage, "graph.attachment_samples",
+                    "{step} draws into '{image}' with {samples} samples and into '{other}' with {other_samples}", step.name,
+                    graph.record(first.image).name, graph.shape(first.image).samples, name, shape.samples);
     if (extent_of(shape, attachment.part) != extent_of(graph.shape(first.image), first.part))
-        return fail_unnamed(Fault::usage, "{} draws into {} and into {}, whose extents differ", step.name,
-                            quoted(graph, first.image), name);
+        return fail(Fault::usage, "graph.attachment_extents",
+                    "{step} draws into '{image}' and into '{other}', whose extents differ", step.name,
+                    graph.record(first.image).name, name);
     if (shape.mips > 1 && !attachment.part.mip)
-        return fail_unnamed(Fault::usage, "{} draws into {}, which has several mips, and names none", step.name, name);
-    return check_part(shape, attachment.part, step.name + ": image " + name);
+        return fail(Fault::usage, "graph.attachment_mip_not_named",
+                    "{step} draws into '{image}', which has several mips, and names none", step.name, name);
+    return check_part(shape, attachment.part, name, step.name);
 }
 
 std::uint32_t layers_of(const Graph& graph, const Attachment& attachment) {
@@ -268,13 +285,15 @@ Result<void> check_layers(const Graph& graph, PlannedStep& planned) {
     planned.layers = layers_of(graph, first);
     for (const Attachment& attachment : step.attachments)
         if (layers_of(graph, attachment) != planned.layers)
-            return fail_unnamed(Fault::usage, "{} draws into {} with {} layers and into {} with {}", step.name,
-                                quoted(graph, first.image), planned.layers, quoted(graph, attachment.image),
-                                layers_of(graph, attachment));
+            return fail(Fault::usage, "graph.attachment_layers",
+                        "{step} draws into '{image}' with {layers} layers and into '{other}' with {other_layers}", step.name,
+                        graph.record(first.image).name, planned.layers, graph.record(attachment.image).name,
+                        layers_of(graph, attachment));
     const bool chosen = std::ranges::any_of(planned.shaders, &Shader::chooses_layer);
     if (planned.layers > 1 && !chosen)
-        return fail_unnamed(Fault::usage, "{} draws into {}, which has {} layers: name one, or let a shader write gl_Layer",
-                            step.name, quoted(graph, first.image), planned.layers);
+        return fail(Fault::usage, "graph.layer_not_named",
+                    "{step} draws into '{image}', which has {layers} layers: name one, or let a shader write gl_Layer", step.name,
+                    graph.record(first.image).name, planned.layers);
     return {};
 }
 
@@ -290,8 +309,8 @@ Result<void> check_rows(const Graph& graph, const Step& step, const DrawWork& dr
     const std::uint32_t height = drawn_extent(graph, step, draw).height;
     const Rows rows = *draw.rows;
     if (rows.count > 0 && rows.first < height && rows.count <= height - rows.first) return {};
-    return fail_unnamed(Fault::usage, "{} draws {} rows from row {}, but there are {}", step.name, rows.count, rows.first,
-                        height);
+    return fail(Fault::usage, "graph.rows_out_of_range", "{step} draws {rows} rows from row {first}, but there are {height}",
+                step.name, rows.count, rows.first, height);
 }
 
 Result<void> check_attachments(const Graph& graph, PlannedStep& planned) {
@@ -307,13 +326,15 @@ Result<void> check_attachments(const Graph& graph, PlannedStep& planned) {
     if (auto checked = check_layers(graph, planned); !checked) return checked;
     const std::uint32_t outputs = planned.shaders.back()->color_outputs;
     if (colors > outputs || (colors < outputs && !step.drops_other_colors))
-        return fail_unnamed(Fault::usage, "{} writes {} colors, but the step has {} color attachments",
-                            planned.shaders.back()->name, outputs, colors);
+        return fail(Fault::usage, "graph.color_count",
+                    "{shader} writes {colors} colors, but the step has {attachments} color attachments",
+                    planned.shaders.back()->name, outputs, colors);
     if (step.attachments.empty() && !(draw ? draw->viewport : fullscreen->viewport))
-        return fail_unnamed(Fault::usage, "{} has no attachments and does not say which pixels it draws: add .within(extent)",
-                            step.name);
+        return fail(Fault::usage, "graph.no_extent",
+                    "{step} has no attachments and does not say which pixels it draws: add .within(extent)", step.name);
     if (draw && draw->list.count > 0 && (!draw->list.commands || (draw->count && !draw->list.indices)))
-        return fail_unnamed(Fault::usage, "{} draws {} commands from no buffer", step.name, draw->list.count);
+        return fail(Fault::usage, "graph.no_draw_commands", "{step} draws {draws} commands from no buffer", step.name,
+                    draw->list.count);
     return draw ? check_rows(graph, step, *draw) : Result<void>{};
 }
 
@@ -333,8 +354,9 @@ Result<void> check_conflicts(const Graph& graph, const PlannedStep& planned) {
             const bool both_read = !writes(a.access) && !writes(b.access);
             if (both_read && a.part == b.part) continue;
             if (storage(a.access) && storage(b.access)) continue;
-            return fail_unnamed(Fault::usage, "{} uses {} as {} ('{}') and as {} ('{}') at once", planned.step.name,
-                                quoted(graph, a.image), name(a.access), a.as, name(b.access), b.as);
+            return fail(Fault::usage, "graph.access_conflict",
+                        "{step} uses '{image}' as {access} ('{binding}') and as {other_access} ('{other}') at once",
+                        planned.step.name, graph.record(a.image).name, name(a.access), a.as, name(b.access), b.as);
         }
     }
     return {};
@@ -345,7 +367,9 @@ Result<void> check_copy(const Graph& graph, const Step& step) {
     if (!copy) return {};
     const bool equal = copy->from ? graph.shape(copy->from) == graph.shape(copy->to)
                                   : graph.record(copy->buffer_from).bytes == graph.record(copy->buffer_to).bytes;
-    if (!equal) return fail_unnamed(Fault::usage, "{}: they differ in shape or size", step.name);
+    if (!equal)
+        return fail(Fault::usage, "graph.copy_mismatch", "{step}: source and destination of the copy differ in shape or size",
+                    step.name);
     return {};
 }
 
@@ -354,7 +378,8 @@ Result<void> count_groups(PlannedStep& planned) {
     if (!work) return {};
     const int said = int{work->over.has_value()} + int{work->groups.has_value()} + int{static_cast<bool>(work->arguments)};
     if (said != 1)
-        return fail_unnamed(Fault::usage, "{} must say exactly one of .over(), .groups() and .indirect()", planned.step.name);
+        return fail(Fault::usage, "graph.dispatch_size", "{step} must say exactly one of .over(), .groups() and .indirect()",
+                    planned.step.name);
     if (work->groups) planned.groups = *work->groups;
     if (work->over) {
         const Extent group = group_size(planned);

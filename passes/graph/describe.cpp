@@ -7,7 +7,7 @@
 
 #include <fmt/core.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/no_index.h"
 
 namespace strata {
 namespace {

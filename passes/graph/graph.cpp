@@ -112,17 +112,17 @@ Self& StepBuilder<Self>::fixes(std::string name, SpecValue value) {
     return self();
 }
 
-ComputePass& ComputePass::over(Extent threads) {
+ComputeStep& ComputeStep::over(Extent threads) {
     std::get<ComputeWork>(step().work).over = threads;
     return *this;
 }
 
-ComputePass& ComputePass::groups(Extent count) {
+ComputeStep& ComputeStep::groups(Extent count) {
     std::get<ComputeWork>(step().work).groups = count;
     return *this;
 }
 
-ComputePass& ComputePass::indirect(const Buffer& arguments, std::uint64_t offset) {
+ComputeStep& ComputeStep::indirect(const Buffer& arguments, std::uint64_t offset) {
     graph_->check_fresh(arguments);
     auto& work = std::get<ComputeWork>(step().work);
     work.arguments = arguments;
@@ -159,7 +159,7 @@ Self& RasterBuilder<Self>::composites(Image& image, Part part) {
 }
 
 template <typename Self>
-Self& RasterBuilder<Self>::composites_grey(Image& image, Part part) {
+Self& RasterBuilder<Self>::composites_gray(Image& image, Part part) {
     return attach(Access::color_blended, image, part, Blend::alpha_over);
 }
 
@@ -189,34 +189,34 @@ Self& RasterBuilder<Self>::within(Extent pixels) {
     return this->self();
 }
 
-DrawPass& DrawPass::culls(Cull side) {
+DrawStep& DrawStep::culls(Cull side) {
     std::get<DrawWork>(step().work).cull = side;
     return *this;
 }
 
-DrawPass& DrawPass::covers_by_alpha() {
+DrawStep& DrawStep::covers_by_alpha() {
     std::get<DrawWork>(step().work).alpha_to_coverage = true;
     return *this;
 }
 
-DrawPass& DrawPass::at_equal_depth() {
+DrawStep& DrawStep::at_equal_depth() {
     std::get<DrawWork>(step().work).at_equal_depth = true;
     return *this;
 }
 
-DrawPass& DrawPass::in_rows(Rows rows) {
+DrawStep& DrawStep::in_rows(Rows rows) {
     std::get<DrawWork>(step().work).rows = rows;
     return *this;
 }
 
-DrawPass& DrawPass::geometry(std::string shader) {
+DrawStep& DrawStep::geometry(std::string shader) {
     std::vector<std::string>& shaders = step().shaders;
     shaders.front() = shader + ".vert";
     shaders.insert(shaders.begin() + 1, shader + ".geom");
     return *this;
 }
 
-DrawPass& DrawPass::counted(const Buffer& count, std::uint64_t offset) {
+DrawStep& DrawStep::counted(const Buffer& count, std::uint64_t offset) {
     graph_->check_fresh(count);
     auto& work = std::get<DrawWork>(step().work);
     work.count = count;
@@ -225,11 +225,11 @@ DrawPass& DrawPass::counted(const Buffer& count, std::uint64_t offset) {
     return *this;
 }
 
-template class StepBuilder<ComputePass>;
-template class StepBuilder<DrawPass>;
-template class StepBuilder<FullscreenPass>;
-template class RasterBuilder<DrawPass>;
-template class RasterBuilder<FullscreenPass>;
+template class StepBuilder<ComputeStep>;
+template class StepBuilder<DrawStep>;
+template class StepBuilder<FullscreenStep>;
+template class RasterBuilder<DrawStep>;
+template class RasterBuilder<FullscreenStep>;
 
 // ---- graph
 
@@ -264,7 +264,7 @@ std::string text_of(const Scope& scope) {
     switch (scope.kind) {
         case ScopeKind::frame:
             return "frame";
-        case ScopeKind::act:
+        case ScopeKind::pass:
             return fmt::format("{}: {}", at, scope.technique);
         case ScopeKind::memo:
             return fmt::format("memo: {}: {}", at, scope.technique);
@@ -321,12 +321,12 @@ Buffer Graph::remember(std::string name, std::uint64_t size) {
     return buffer;
 }
 
-ComputePass Graph::compute(std::string shader) {
+ComputeStep Graph::compute(std::string shader) {
     std::vector<std::string> shaders{shader};
     return {*this, append(shader_step(std::move(shader), std::move(shaders), ComputeWork{}))};
 }
 
-DrawPass Graph::draw(std::string shader, DrawList list) {
+DrawStep Graph::draw(std::string shader, DrawList list) {
     check_fresh(list.commands);
     check_fresh(list.indices);
     Step step = shader_step(shader, {shader + ".vert", shader + ".frag"}, DrawWork{.list = list});
@@ -335,7 +335,7 @@ DrawPass Graph::draw(std::string shader, DrawList list) {
     return {*this, append(std::move(step))};
 }
 
-FullscreenPass Graph::fullscreen(std::string shader) {
+FullscreenStep Graph::fullscreen(std::string shader) {
     return {*this, append(shader_step(shader, {"shaders/fullscreen.vert", shader + ".frag"}, FullscreenWork{}))};
 }
 

@@ -17,7 +17,7 @@ namespace strata {
 
 class Graph;
 
-/// What computes, draws and full-screen passes have in common. Chain the verbs.
+/// What computes, draws and full-screen draws have in common. Chain the verbs.
 template <typename Self>
 class StepBuilder {
 public:
@@ -50,14 +50,14 @@ protected:
     std::size_t step_;
 };
 
-class ComputePass : public StepBuilder<ComputePass> {
+class ComputeStep : public StepBuilder<ComputeStep> {
 public:
     using StepBuilder::StepBuilder;
     /// One thread per texel of the extent.
-    ComputePass& over(Extent);
-    ComputePass& groups(Extent);
+    ComputeStep& over(Extent);
+    ComputeStep& groups(Extent);
     /// Three uint32 group counts at the offset.
-    ComputePass& indirect(const Buffer& arguments, std::uint64_t offset = 0);
+    ComputeStep& indirect(const Buffer& arguments, std::uint64_t offset = 0);
 };
 
 /// Color attachments stand in the order of their verbs: the first is location 0. Attachments of several layers of which no part
@@ -73,7 +73,7 @@ public:
     /// dst = src0 + dst * src1, per channel: alpha blending with a transmittance per channel.
     Self& composites(Image&, Part = {});
     /// dst = src + dst * src.a; the alpha of dst stays. The same for one transmittance, without dual-source blending.
-    Self& composites_grey(Image&, Part = {});
+    Self& composites_gray(Image&, Part = {});
     Self& tests_depth(const Image&, Part = {});
     Self& writes_depth(Image&, Part = {});
     /// The shader's outputs beyond the attachments go nowhere: one shader for more targets and for fewer.
@@ -85,34 +85,34 @@ protected:
     Self& attach(Access, Image&, Part, Blend);
 };
 
-class DrawPass : public RasterBuilder<DrawPass> {
+class DrawStep : public RasterBuilder<DrawStep> {
 public:
     using RasterBuilder::RasterBuilder;
-    DrawPass& culls(Cull);
+    DrawStep& culls(Cull);
     /// Alpha to coverage: the alpha of color 0, which needs no attachment, says how many samples of a pixel are drawn. How many
     /// of which is the device's choice.
-    DrawPass& covers_by_alpha();
+    DrawStep& covers_by_alpha();
     /// With tests_depth(): draws only where depth is the draw's own to the last bit, as a draw of the same list has left it.
-    DrawPass& at_equal_depth();
+    DrawStep& at_equal_depth();
     /// Draws these rows of the attachments alone: a scissor, which spares all fragments of others. lavapipe 22.3 lets the lower
     /// samples of the row above through where pixels have several, so the shader must leave out rows above the first.
-    DrawPass& in_rows(Rows);
+    DrawStep& in_rows(Rows);
     /// A geometry shader by its path without ".geom", between the fragment shader and the vertex shader beside itself.
-    DrawPass& geometry(std::string shader);
+    DrawStep& geometry(std::string shader);
     /// Only the first *count of the list's commands.
-    DrawPass& counted(const Buffer& count, std::uint64_t offset = 0);
+    DrawStep& counted(const Buffer& count, std::uint64_t offset = 0);
 };
 
-class FullscreenPass : public RasterBuilder<FullscreenPass> {
+class FullscreenStep : public RasterBuilder<FullscreenStep> {
 public:
     using RasterBuilder::RasterBuilder;
 };
 
-extern template class StepBuilder<ComputePass>;
-extern template class StepBuilder<DrawPass>;
-extern template class StepBuilder<FullscreenPass>;
-extern template class RasterBuilder<DrawPass>;
-extern template class RasterBuilder<FullscreenPass>;
+extern template class StepBuilder<ComputeStep>;
+extern template class StepBuilder<DrawStep>;
+extern template class StepBuilder<FullscreenStep>;
+extern template class RasterBuilder<DrawStep>;
+extern template class RasterBuilder<FullscreenStep>;
 
 class Graph {
 public:
@@ -130,11 +130,11 @@ public:
     Buffer remember(std::string name, std::uint64_t bytes);
 
     /// A .comp shader by its path below passes/, without "passes/": "transparency/weighted/resolve.comp".
-    ComputePass compute(std::string shader);
+    ComputeStep compute(std::string shader);
     /// A fragment shader by its path without ".frag"; the vertex shader is the one beside it or "shaders/draw.vert".
-    DrawPass draw(std::string shader, DrawList);
+    DrawStep draw(std::string shader, DrawList);
     /// A fragment shader over every pixel.
-    FullscreenPass fullscreen(std::string shader);
+    FullscreenStep fullscreen(std::string shader);
     void clear(Image&, ClearValue);
     void clear(Buffer&, std::uint32_t word);
     void copy(const Image& from, Image& to);
@@ -176,8 +176,8 @@ private:
     friend class StepBuilder;
     template <typename Self>
     friend class RasterBuilder;
-    friend class ComputePass;
-    friend class DrawPass;
+    friend class ComputeStep;
+    friend class DrawStep;
 
     std::size_t append(Step);
     /// Asserts that the handle is the newest version.

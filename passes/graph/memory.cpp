@@ -2,8 +2,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/no_index.h"
 #include "passes/graph/compiling.h"
+#include "passes/graph/graph.h"
 
 namespace strata {
 namespace {

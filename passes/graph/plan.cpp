@@ -5,6 +5,7 @@
 #include <set>
 
 #include "passes/graph/compiling.h"
+#include "passes/graph/graph.h"
 
 namespace strata {
 namespace {
@@ -76,8 +77,9 @@ Result<void> check_read_contents(const Graph& graph, const PlannedStep& planned,
     const bool needs_writer = reads(use.access) && use.access != Access::updated;
     const bool imported = use.image ? graph.record(use.image).import.has_value() : graph.record(use.buffer).import.has_value();
     if (!needs_writer || imported || written.has(use)) return {};
-    return fail_unnamed(Fault::usage, "{} reads '{}' ({}) before any step wrote or cleared it", planned.step.name,
-                        name_of(graph, use), name(use.access));
+    return fail(Fault::usage, "graph.read_before_write",
+                "{step} reads '{resource}' ({access}) before any step writes or clears it", planned.step.name,
+                name_of(graph, use), name(use.access));
 }
 
 Plan with_records(const Graph& graph) {
@@ -172,7 +174,8 @@ Result<void> check_contents(const Graph& graph, const Plan& plan) {
     }
     for (const Image image : graph.kept_images())
         if (!graph.record(image).import && !written.images.contains(image.id))
-            return fail_unnamed(Fault::usage, "nothing writes '{}', which is kept", graph.record(image).name);
+            return fail(Fault::usage, "graph.never_written", "no step writes '{image}', which the graph keeps",
+                        graph.record(image).name);
     return {};
 }
 

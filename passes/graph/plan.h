@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "capture_format/result.h"
-#include "passes/graph/graph.h"
 #include "passes/graph/shader.h"
 
 namespace strata {
+
+class Graph;  // passes/graph/graph.h
 
 /// Waits for the previous use of (a part of) a resource and makes it ready for the next. Repeating the same read makes no
 /// barrier, so one that leads to a read must serve every shader stage. What ran before the plan is finished and visible when

@@ -18,10 +18,10 @@ using spirv_cross::SPIRType;
 
 /// What reflect() gives up with; it never leaves reflect().
 struct Unusable {
-    std::string sentence;
+    Error error;
 };
 
-// FNV-1a, 64 bits, word by word: a name for the code, no defence against forgery.
+// FNV-1a, 64 bits, word by word: a name for the code, no defense against forgery.
 std::uint64_t hash_of(std::span<const std::uint32_t> code) {
     std::uint64_t hash = 0xcbf29ce484222325u;
     for (const std::uint32_t word : code) hash = (hash ^ word) * 0x100000001b3u;
@@ -39,7 +39,8 @@ ShaderStage stage_of(const Compiler& compiler) {
         case spv::ExecutionModelFragment:
             return ShaderStage::fragment;
         default:
-            throw Unusable{"it is neither a compute, a vertex, a geometry nor a fragment shader"};
+            throw Unusable{fail(Fault::bad_input, "shader.unsupported_stage",
+                                "it is neither a compute, a vertex, a geometry nor a fragment shader")};
     }
 }
 
@@ -82,7 +83,8 @@ std::optional<Format> format_of(spv::ImageFormat format) {
 
 ShaderBinding placed(const Compiler& compiler, const Resource& resource, std::string name, BindingKind kind) {
     const SPIRType& type = compiler.get_type(resource.type_id);
-    if (!type.array.empty()) throw Unusable{"'" + name + "' is an array of resources"};
+    if (!type.array.empty())
+        throw Unusable{fail(Fault::bad_input, "shader.resource_array", "'{binding}' is an array of resources", name)};
     return {.name = std::move(name),
             .set = compiler.get_decoration(resource.id, spv::DecorationDescriptorSet),
             .binding = compiler.get_decoration(resource.id, spv::DecorationBinding),
@@ -92,7 +94,8 @@ ShaderBinding placed(const Compiler& compiler, const Resource& resource, std::st
 ShaderBinding image_binding(const Compiler& compiler, const Resource& resource, BindingKind kind) {
     ShaderBinding binding = placed(compiler, resource, compiler.get_name(resource.id), kind);
     const SPIRType::ImageType& image = compiler.get_type(resource.type_id).image;
-    if (image.dim != spv::Dim2D && image.dim != spv::Dim3D) throw Unusable{"'" + binding.name + "' is neither 2D nor 3D"};
+    if (image.dim != spv::Dim2D && image.dim != spv::Dim3D)
+        throw Unusable{fail(Fault::bad_input, "shader.image_dimension", "'{binding}' is neither 2D nor 3D", binding.name)};
     binding.dimension = image.dim == spv::Dim3D ? ImageDimension::three : ImageDimension::two;
     binding.arrayed = image.arrayed;
     binding.multisampled = image.ms;
@@ -120,7 +123,8 @@ ShaderBinding buffer_binding(const Compiler& compiler, const Resource& resource,
 
 std::vector<ShaderBinding> bindings_of(const Compiler& compiler, const spirv_cross::ShaderResources& resources) {
     if (!resources.separate_images.empty() || !resources.separate_samplers.empty() || !resources.subpass_inputs.empty())
-        throw Unusable{"it separates images from samplers or reads subpass inputs"};
+        throw Unusable{
+            fail(Fault::bad_input, "shader.unsupported_resource", "it separates images from samplers or reads subpass inputs")};
     std::vector<ShaderBinding> bindings;
     for (const Resource& r : resources.sampled_images) bindings.push_back(image_binding(compiler, r, BindingKind::sampled_image));
     for (const Resource& r : resources.storage_images) bindings.push_back(image_binding(compiler, r, BindingKind::storage_image));
@@ -241,9 +245,10 @@ Result<Shader> reflect(std::string name, std::span<const std::uint32_t> code) {
     try {
         return reflected_shader(name, code);
     } catch (const Unusable& unusable) {
-        return fail_unnamed(Fault::bad_input, "shader {} cannot be used: {}", name, unusable.sentence);
+        return within(unusable.error, "shader {shader} cannot be used", name);
     } catch (const spirv_cross::CompilerError& error) {
-        return fail_unnamed(Fault::bad_input, "shader {} is not valid SPIR-V: {}", name, error.what());
+        return fail(Fault::bad_input, "shader.invalid_spirv", "shader {shader} is not valid SPIR-V: {reason}", name,
+                    error.what());
     }
 }
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "capture_format/result.h"
-#include "passes/graph/graph.h"
+#include "passes/graph/step.h"
 
 namespace strata {
 

@@ -167,10 +167,10 @@ struct Step {
 
 /// What the steps of a scope are for.
 enum class ScopeKind : std::uint32_t {
-    frame,  ///< everything declared before the first act
-    act,    ///< an act of a technique, at its own stage or at another one
-    memo,   ///< copies an act's images to or from the memo
-    given,  ///< stores images that somebody gave in the place of an act's
+    frame,  ///< everything declared before the first pass
+    pass,   ///< a pass of a technique, at its own stage or at another one
+    memo,   ///< copies a pass's images to or from the memo
+    given,  ///< stores images that somebody gave in the place of a pass's
     view,   ///< makes a debug view or a debug table
 };
 
@@ -178,7 +178,7 @@ enum class ScopeKind : std::uint32_t {
 struct Scope {
     ScopeKind kind = ScopeKind::frame;
     Stage stage = {};  ///< the technique's own stage
-    Stage at = {};     ///< the place of an act in the frame: another stage than its own for what Technique::at_other_stages lists
+    Stage at = {};     ///< the place of a pass in the frame: another stage than its own for what Technique::at_other_stages lists
     std::string technique = {};  ///< "transparency/weighted"
     std::string view = {};       ///< the name of a view or table
     friend auto operator<=>(const Scope&, const Scope&) = default;
@@ -186,9 +186,9 @@ struct Scope {
 
 /// For people: "transparency: transparency/weighted", "memo: shadows: shadows/pcf", "view: lighting/tiled:depth", "frame".
 std::string text_of(const Scope&);
-/// Whether the scope is an act of this technique, at its own stage or at another one.
-inline bool is_act_of(const Scope& scope, std::string_view technique) {
-    return scope.kind == ScopeKind::act && scope.technique == technique;
+/// Whether the scope is a pass of this technique, at its own stage or at another one.
+inline bool is_pass_of(const Scope& scope, std::string_view technique) {
+    return scope.kind == ScopeKind::pass && scope.technique == technique;
 }
 
 }  // namespace strata

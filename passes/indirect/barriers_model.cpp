@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+
 namespace strata::indirect::in_double {
 namespace {
 
-// docs/algorithms/lighting.md 5.8: metres within which a point is on a plane, and where in the world it belongs to then.
+// docs/algorithms/lighting.md 5.8: meters within which a point is on a plane, and where in the world it belongs to then.
 constexpr double on_plane = 1e-3;
 constexpr glm::dvec3 side_of_plane(1, 0.37, 0.14);
 

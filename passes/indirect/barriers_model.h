@@ -9,7 +9,11 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
+namespace strata {
+
+struct Frame;  // capture_format/frame.h
+
+}  // namespace strata
 
 namespace strata::indirect::in_double {
 
@@ -35,7 +39,7 @@ struct Segment {
 
 enum class Meeting { misses, passes_hole, is_stopped };
 
-/// Rectangles are `slack` metres wider than recorded, so that nothing passes between two that share an edge.
+/// Rectangles are `slack` meters wider than recorded, so that nothing passes between two that share an edge.
 Meeting meets(const Barrier&, const Segment&, double slack);
 bool is_blocked(std::span<const Barrier>, const Segment&, double slack);
 

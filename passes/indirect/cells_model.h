@@ -10,7 +10,7 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/light_volume.h"
 
 namespace strata::indirect::in_double {
 
@@ -22,7 +22,7 @@ glm::dvec4 cosine_lobe(const glm::dvec3& normal);
 /// A box of cubic cells.
 struct Grid {
     glm::uvec3 cells{1};
-    double cell_size = 1;                               ///< metres
+    double cell_size = 1;                               ///< meters
     glm::dvec3 origin{0};                               ///< corner of cell (0, 0, 0), world
     double fade_cells = 1;                              ///< width of the border over which the next grid takes over
     std::uint32_t iterations = 0;                       ///< as recorded

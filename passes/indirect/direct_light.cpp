@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/texture.h"
+#include "capture_format/light_types.h"
 #include "passes/reference/directions.h"
 #include "passes/reference/light_sets.h"
 #include "passes/reference/lights.h"
@@ -16,9 +19,9 @@ namespace {
 using glm::dvec2, glm::dvec3, glm::dvec4;
 using std::numbers::pi;
 
-// Metres between a ray's ends and the surfaces they belong to. Hits are exact to 1e-12 of their distance.
+// Meters between a ray's ends and the surfaces they belong to. Hits are exact to 1e-12 of their distance.
 constexpr double ray_gap = 1e-5;
-constexpr double endless = 1e9;  // metres to the sun
+constexpr double endless = 1e9;  // meters to the sun
 
 /// What a place of a light sends to a surface that faces it: irradiance, and where it comes from as light_point() says it.
 struct Sent {
@@ -34,8 +37,9 @@ dvec2 on_disc(const dvec2& place) {
 dvec3 spot_share(const PlacedLight& at, const dvec3& to_light) {
     if (glm::dot(to_light, at.direction) >= 0) return dvec3(0);
     const dvec2 place = place_in_spot(*at.light, away(at));
-    const double cone = at.light->type == LightType::round_spot ? round_spot_share(*at.light, -glm::dot(to_light, at.direction))
-                                                                : square_spot_share(place);
+    const double cone = facts_of(at.light->type).cone == LightCone::round
+                            ? round_spot_share(*at.light, -glm::dot(to_light, at.direction))
+                            : square_spot_share(place);
     if (cone == 0 || at.light->texture == no_index) return dvec3(cone);
     if (std::abs(place.x) > 1 || std::abs(place.y) > 1) return dvec3(0);
     return cone * dvec3(bilinear(at.frame->textures[at.light->texture], 0, {0.5 * (1 + place.x), 0.5 * (1 - place.y)}));
@@ -47,7 +51,7 @@ Sent from_point(const PlacedLight& at, const LitSide& side) {
     const dvec3 to_light = at.offset / distance;
     const double near = std::max(distance, nearest_light);
     dvec3 share(std::max(0.0, glm::dot(to_light, side.normal)) / (near * near));
-    if (at.light->type != LightType::omni && share.x > 0) share *= spot_share(at, to_light);
+    if (is_spot(at.light->type) && share.x > 0) share *= spot_share(at, to_light);
     return {share, dvec4(side.position + at.offset, 1)};
 }
 
@@ -91,29 +95,30 @@ EmitterPoint on_tube(const PlacedLight& at, const dvec2& place) {
 /// Of radiance or intensity 1.
 Sent sent(const PlacedLight& at, const LitSide& side, const dvec2& place) {
     const Light& light = *at.light;
-    switch (light.type) {
-        case LightType::directional:
+    switch (facts_of(light.type).shape) {
+        case LightShape::parallel:
             return {dvec3(std::max(0.0, -glm::dot(at.direction, side.normal))), dvec4(-at.direction, 0)};
-        case LightType::rectangle: {
+        case LightShape::rectangle: {
             const dvec2 half(light.half_extent), q = 2.0 * place - 1.0;
             const dvec3 to = at.offset + at.axis_u * (half.x * q.x) + at.axis_v * (half.y * q.y);
             Sent result = from_area({to, at.direction, 4 * half.x * half.y}, side);
             if (result.irradiance != dvec3(0)) result.irradiance *= emitted_color(at, q, 0);
             return result;
         }
-        case LightType::disc: {
+        case LightShape::disc: {
             const double radius = double(light.source_radius);
             const dvec2 q = radius * on_disc(place);
             const auto [u, v] = perpendiculars(at.direction);
             return from_area({at.offset + u * q.x + v * q.y, at.direction, pi * radius * radius}, side);
         }
-        case LightType::sphere:
+        case LightShape::sphere:
             return from_sphere(at, side, place);
-        case LightType::tube:
+        case LightShape::tube:
             return from_area(on_tube(at, place), side);
-        default:
-            return from_point(at, side);
+        case LightShape::point:
+            break;
     }
+    return from_point(at, side);
 }
 
 bool is_clipped(const Frame& frame, const Light& light, const dvec3& position) {
@@ -126,11 +131,11 @@ bool is_clipped(const Frame& frame, const Light& light, const dvec3& position) {
 /// A point of the source of a soft shadow: of the sun's disc, a spot's disc, or the disc as which other lights' globes are seen.
 dvec4 soft_source(const Frame& frame, const PlacedLight& at, const dvec4& from, const dvec2& place) {
     const dvec2 q = on_disc(place);
-    if (at.light->type == LightType::directional) {
+    if (!has_range(at.light->type)) {
         const auto [u, v] = perpendiculars(-at.direction);
         return from + dvec4(std::tan(double(frame.sun.angular_radius)) * (u * q.x + v * q.y), 0);
     }
-    const bool spot = is_spot(*at.light);
+    const bool spot = is_spot(at.light->type);
     const double distance = glm::length(at.offset), radius = double(at.light->source_radius);
     if (distance <= radius) return from;
     const auto [u, v] = perpendiculars(spot ? at.direction : at.offset / distance);
@@ -161,7 +166,7 @@ dvec3 DirectLight::irradiance(std::size_t index, const LitSide& side, dvec2 plac
     SurfacePoint point;
     point.position = side.position;
     const PlacedLight at = placed(*frame_, point, light);
-    const bool is_sun = light.type == LightType::directional, is_emitter = is_area(light.type);
+    const bool is_sun = !has_range(light.type), is_emitter = is_area(light.type);
     const double window = is_sun ? 1 : range_window(glm::length(at.offset), double(light.range));
     if (window == 0 || is_behind(at)) return dvec3(0);
     const Sent result = sent(at, side, place);

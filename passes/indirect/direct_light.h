@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include "capture_format/frame/light.h"
 #include "passes/reference/blockers.h"
 #include "passes/reference/placed_light.h"
 #include "passes/reference/rays.h"

@@ -5,8 +5,8 @@
 
 layout(constant_id = 72) const uint irradiance = irradiance_face;
 
-// Irradiance over pi, where cells are a metre wide (docs/algorithms/lighting.md 5.8). face: of a light half a cell away that sends as much as the
-// cell towards the surface. cell: of light through all of the cell's section, which is 1.5 square metres in the mean. Without a normal
+// Irradiance over pi, where cells are a meter wide (docs/algorithms/lighting.md 5.8). face: of a light half a cell away that sends as much as the
+// cell towards the surface. cell: of light through all of the cell's section, which is 1.5 square meters in the mean. Without a normal
 // only l0 is left: the mean over all normals, which is the mean radiance.
 float towards(vec4 light, vec3 n) {
     const float face = (4.0 / 3.14159265358979) * (y0 * light.x - y1 * dot(light.yzw, n));

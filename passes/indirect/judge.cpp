@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "passes/reference/difference.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 namespace {
@@ -52,7 +54,7 @@ Leak leak(const ReferenceImage& got, const ReferenceImage& wanted) {
 
 }  // namespace
 
-std::vector<Figure> indirect_judge(const ImageSet& result, const ImageSet& truth, const StageInput&) {
+std::vector<Metric> indirect_judge(const ImageSet& result, const ImageSet& truth, const StageInput&) {
     const ReferenceImage &got = result.at("indirect"), &wanted = truth.at("indirect");
     const Difference error = difference(got, wanted);
     const Leak leaked = leak(got, wanted);

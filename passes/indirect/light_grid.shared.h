@@ -13,7 +13,7 @@ const uint irradiance_cell = 1u;  // the mean over a cell of what travels throug
 // A grid of cubic cells. Positions are relative to the eye, along the world's axes.
 struct GridPlace {
     vec3 origin;  // the corner of cell (0, 0, 0)
-    float cell;   // metres a side
+    float cell;   // meters a side
     uvec3 cells;
 };
 
@@ -25,7 +25,7 @@ struct LightCell {
 // The image volume_light: texels in rows, three to a record. First a record of each grid, then one of each cell (its red, green
 // and blue), grid after grid. Of a grid:
 //   origin xyz, cell    as in GridPlace
-//   cells xyz, border   as in GridPlace; metres over which the grid fades at its border
+//   cells xyz, border   as in GridPlace; meters over which the grid fades at its border
 //   asks_taps, rule, count    1: not of cells that a blocker hides; irradiance_*; grids in the image
 //   macro_row                 the row where its macro-cells begin; 0: it has none, and taps ask all blockers
 // Then the blockers near each macro-cell of a grid: a bit per blocker, in words of 32. A texel holds two words, each as its lower

@@ -3,14 +3,14 @@
 #define PASSES_INDIRECT_LIT_PLACE_GLSL
 #include "passes/indirect/grid.glsl"
 
-// Metres off a surface from which taps are asked about.
+// Meters off a surface from which taps are asked about.
 const float tap_start = 0.02;
 
 struct LitPlace {
     vec3 place, normal;
 };
 
-// How far a place is from the grid's border, metres; below 0 outside.
+// How far a place is from the grid's border, meters; below 0 outside.
 float depth_inside(GridPlace grid, vec3 place) {
     const vec3 least = min(place - grid.origin, grid.origin + vec3(grid.cells) * grid.cell - place);
     return min(least.x, min(least.y, least.z));

@@ -6,7 +6,7 @@
 namespace strata::indirect::in_double {
 namespace {
 
-// docs/algorithms/lighting.md 5.8: where segments to the taps start, metres above the surface, and the least sum of weights.
+// docs/algorithms/lighting.md 5.8: where segments to the taps start, meters above the surface, and the least sum of weights.
 constexpr double tap_start = 0.02, least_weight = 0.02;
 
 // docs/algorithms/lighting.md 5.8: the area of a unit cube seen from anywhere, in the mean.

@@ -1,4 +1,5 @@
 // The stage indirect: what it writes, and when a frame does not need it.
+#include "capture_format/frame_features.h"
 #include "passes/indirect/bounces.h"
 #include "passes/indirect/judge.h"
 #include "passes/indirect/truth.h"
@@ -16,6 +17,7 @@ std::optional<std::string> unwanted(const Features& features) {
 
 StageInfo stage() {
     return {.purpose = "adds light that other surfaces reflect",
+            .aliases = {"gi"},
             .unwanted = unwanted,
             .outputs = {"indirect", "volume_light"},
             .truth = indirect_truth,

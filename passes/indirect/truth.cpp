@@ -4,18 +4,22 @@
 #include <span>
 #include <vector>
 
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/indirect/direct_light.h"
 #include "passes/indirect/leg_blockers.h"
 #include "passes/reference/estimated_image.h"
 #include "passes/reference/surfaces.h"
 #include "passes/reference/triangles.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 namespace {
 
 using indirect::DirectLight, indirect::LegBlockers, indirect::LitSide;
 
-constexpr double endless = 1e9;  // metres
+constexpr double endless = 1e9;  // meters
 
 /// Gathers for one sample after the other.
 class Gathering {

@@ -8,9 +8,12 @@
 // brings nothing.
 #pragma once
 
-#include "passes/stages.h"
+#include "passes/image_set.h"
+#include "passes/reference/image.h"
 
 namespace strata {
+
+struct StageInput;  // passes/stage_input.h
 
 /// Directions over a sample: `batches` independent sets of side x side, each with one direction in every part of the hemisphere.
 /// A path of two bounces goes on in one direction from the surface that it reaches.

@@ -4,8 +4,10 @@
 #include <numbers>
 #include <vector>
 
+#include "capture_format/frame/frame.h"
 #include "passes/indirect/light_grid.shared.h"
 #include "passes/indirect/reading_model.h"
+#include "passes/stage_input.h"
 
 namespace strata::indirect {
 namespace {

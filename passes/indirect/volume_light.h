@@ -3,8 +3,8 @@
 // and 5.8.
 #pragma once
 
+#include "passes/image_set.h"
 #include "passes/reference/fragments.h"
-#include "passes/stages.h"
 
 namespace strata::indirect {
 

@@ -6,7 +6,7 @@
 namespace strata::indirect {
 #endif
 
-// Metres within which a place lies on the plane. It belongs to the side that this direction of the world points to: blockers in
+// Meters within which a place lies on the plane. It belongs to the side that this direction of the world points to: blockers in
 // one plane, whichever way they face and however their heights are rounded, agree about it.
 const float on_plane = 1e-3f;
 const vec3 side_of_plane = vec3(1.0f, 0.37f, 0.14f);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
 #include "passes/reference/difference.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 namespace {
@@ -26,7 +28,7 @@ ReferenceImage shown(ReferenceImage color, const Frame& frame, double exposure) 
 
 }  // namespace
 
-std::vector<Figure> lens_judge(const ImageSet& result, const ImageSet& truth, const StageInput& input) {
+std::vector<Metric> lens_judge(const ImageSet& result, const ImageSet& truth, const StageInput& input) {
     const double got = exposure_of(result), wanted = exposure_of(truth);
     const double stops = std::isfinite(got) && got > 0 ? std::abs(std::log2(got / wanted)) : HUGE_VAL;
     const auto color = truth.find("color"), found = result.find("color");

@@ -3,12 +3,14 @@
 
 #include <vector>
 
-#include "passes/stages.h"
+#include "passes/figure.h"
 
 namespace strata {
 
+struct StageInput;  // passes/stage_input.h
+
 /// First the root mean square error of display light, as this frame's exposure and tone curve show both. Then radiance, and the
 /// exposure's error in stops.
-std::vector<Figure> lens_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
+std::vector<Metric> lens_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
 
 }  // namespace strata

@@ -27,19 +27,6 @@ const uint focus_taps_256 = 3u;
 const uint distortion_radial = 0u;
 const uint distortion_off = 1u;
 
-struct LensParams {
-    uint exposure;
-    float exposure_amount;
-    float exposure_grey;
-    uint bloom;
-    float bloom_reach;  // of the picture's height
-    uint focus;
-    uint focus_taps;
-    float focus_reach;  // of the picture's height
-    uint distortion;
-    float k1;
-};
-
 // Largest half float: what is brighter counts as this bright, and what is not a number as nothing.
 const float brightest = 65504.0f;
 
@@ -74,7 +61,7 @@ struct AdaptPush {
     uint tiles;
     float speed;   // per second
     float amount;  // 0: the exposure stays 1
-    float grey;    // luminance that is shown as it is
+    float gray;    // luminance that is shown as it is
 };
 
 // Luminance of black, and the bounds that X-Ray computes and discards.
@@ -107,11 +94,11 @@ const uint blur_tile = 8u;
 
 struct BlurPush {
     float scale;  // pixels: radius of the blur of what is infinitely far
-    float focus;  // metres
+    float focus;  // meters
     float most;   // pixels
 };
 
-// X-Ray's metres, and the radius of its taps in uv: kernel 5 in half pixels of 1024 x 768.
+// X-Ray's meters, and the radius of its taps in uv: kernel 5 in half pixels of 1024 x 768.
 const float xray_near = -1.25f;
 const float xray_far = 600.0f;
 const float xray_sky = 30.0f;

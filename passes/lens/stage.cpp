@@ -1,4 +1,5 @@
 // The stage lens: what it writes, and when a frame does not need it.
+#include "capture_format/frame_features.h"
 #include "passes/lens/judge.h"
 #include "passes/lens/truth.h"
 #include "passes/stages.h"

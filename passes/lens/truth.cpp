@@ -1,10 +1,12 @@
 #include "passes/lens/truth.h"
 
+#include "capture_format/frame/frame.h"
 #include "passes/lens/bloom/bloom_model.h"
 #include "passes/lens/bloom/scattered.h"
 #include "passes/lens/depth_of_field/truth.h"
 #include "passes/lens/distortion/radial_model.h"
 #include "passes/lens/exposure/exposure_model.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 namespace {

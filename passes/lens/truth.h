@@ -3,9 +3,11 @@
 // them.
 #pragma once
 
-#include "passes/stages.h"
+#include "passes/image_set.h"
 
 namespace strata {
+
+struct StageInput;  // passes/stage_input.h
 
 /// exposure where it adapts, and color where the lens blurs, bends or glows; at the default settings of techniques.
 ImageSet lens_truth(const StageInput&);

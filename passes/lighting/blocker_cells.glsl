@@ -44,7 +44,7 @@ uint classify_rectangle(BlockerRecord r, vec4 light, Cell cell) {
     if (height == 0.0) return class_none;
     const float facing = height < 0.0 ? -1.0 : 1.0;
     const float size = length(light.w > 0.0 ? light.xyz : r.center) + cell.z_far;
-    const float bias = max(least_surface_offset, surface_offset_per_metre * cell.z_far);
+    const float bias = max(least_surface_offset, surface_offset_per_meter * cell.z_far);
     const float margin = classification_margin * size + bias;
     const vec2 behind = corner_range(cell, -facing * r.normal, r.center) - point_behind_blocker;
     if (behind.y <= -margin) return class_none;

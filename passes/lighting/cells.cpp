@@ -83,7 +83,7 @@ struct Margin {
 template <typename Real>
 Margin<Real> margin_of(const Rectangle<Real>& r, const Vec4<Real>& light, const Cell<Real>& cell) {
     const Real size = length(light.w > 0 ? Vec3<Real>(light) : r.center) + cell.z_far;
-    const Real bias = std::max(Real(least_surface_offset), Real(surface_offset_per_metre) * cell.z_far);
+    const Real bias = std::max(Real(least_surface_offset), Real(surface_offset_per_meter) * cell.z_far);
     return {.size = size, .planes = Real(classification_margin) * size + bias};
 }
 

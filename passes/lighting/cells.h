@@ -7,7 +7,7 @@
 
 #include <glm/glm.hpp>
 
-#include "passes/shaders/scene.shared.h"
+#include "passes/shaders/scene/lights.shared.h"
 
 namespace strata::lighting {
 

@@ -4,10 +4,14 @@
 
 #include <tbb/parallel_for.h>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/light_types.h"
 #include "passes/edges/plain_pixels.h"
 #include "passes/reference/decoded.h"
 #include "passes/reference/light_sets.h"
 #include "passes/reference/placed_light.h"
+#include "passes/stage_input.h"
 
 namespace strata::lighting {
 namespace {

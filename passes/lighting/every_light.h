@@ -7,7 +7,7 @@
 
 #include "passes/reference/blockers.h"
 #include "passes/reference/lights.h"
-#include "passes/technique.h"
+#include "passes/tolerance.h"
 
 namespace strata::lighting {
 

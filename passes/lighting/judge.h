@@ -3,11 +3,13 @@
 
 #include <vector>
 
-#include "passes/stages.h"
+#include "passes/figure.h"
 
 namespace strata {
 
+struct StageInput;  // passes/stage_input.h
+
 /// Root mean square error of radiance, the same relative to the truth's root mean square, and the worst channel.
-std::vector<Figure> lighting_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
+std::vector<Metric> lighting_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
 
 }  // namespace strata

@@ -11,7 +11,7 @@ vec3 lifted(MaterialPoint m) { return off_surface(m.position, facing_normal(m.li
 
 bool is_in_range(LightRecord light, vec3 position) {
     const vec3 offset = light.position - position;
-    return light.type == light_directional || dot(offset, offset) < light.range * light.range * (1.0 + 1e-6);
+    return !light_has_range(light.type) || dot(offset, offset) < light.range * light.range * (1.0 + 1e-6);
 }
 
 // `asked` are the blockers and portals that matter here, as bits of the light's own; `above` is lifted(m).

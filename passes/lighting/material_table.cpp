@@ -1,5 +1,6 @@
 #include "passes/lighting/material_table.h"
 
+#include "passes/graph/graph.h"
 #include "passes/lighting/material_table.shared.h"
 
 namespace strata::lighting {

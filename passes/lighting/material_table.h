@@ -1,7 +1,13 @@
 // Makes the talk's table of materials (docs/algorithms/deferred.md 1.6).
 #pragma once
 
-#include "passes/graph/graph.h"
+#include "passes/graph/step.h"
+
+namespace strata {
+
+class Graph;  // passes/graph/graph.h
+
+}  // namespace strata
 
 namespace strata::lighting {
 

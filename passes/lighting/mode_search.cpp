@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint64_t step_budget = 60'000'000;  // of branch and bound: spectra looked at; about half a second
 
-/// A problem's cost: what is minimised, and between equals of that the sum over scenes.
+/// A problem's cost: what is minimized, and between equals of that the sum over scenes.
 struct Total {
     double aimed = 0, sum = 0;
 };

@@ -17,7 +17,7 @@ struct Scene {
     double weight = 1;  ///< how often or how long it is seen
 };
 
-/// What is minimised over scenes: the weighted sum of their costs, or the highest of their weighted costs.
+/// What is minimized over scenes: the weighted sum of their costs, or the highest of their weighted costs.
 enum class Aim { sum, worst };
 
 struct ModeProblem {

@@ -1,4 +1,5 @@
 // The stage lighting: what it writes, and when a frame does not need it.
+#include "capture_format/frame_features.h"
 #include "passes/lighting/judge.h"
 #include "passes/lighting/truth.h"
 #include "passes/stages.h"

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/light_types.h"
+#include "passes/shaders/scene/view.shared.h"
 
 namespace strata::lighting {
 namespace {
@@ -15,8 +17,6 @@ constexpr float axis_slack = 1.01f;
 
 float dot(const glm::vec3& a, const glm::vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 float length(const glm::vec3& a) { return std::sqrt(dot(a, a)); }
-
-bool is(const LightRecord& light, LightType type) { return light.type == static_cast<std::uint32_t>(type); }
 
 /// Least and largest dot(plane.xyz, p) + plane.w of the cell.
 glm::vec2 reach_along(const glm::vec3& normal, float w, const Cell<float>& cell) {
@@ -132,12 +132,14 @@ bool cone_touches(const Cone& cone, const glm::vec3& from_apex, float radius) {
 
 bool light_touches(const TouchedBy& by, const Cell<float>& cell) {
     const LightRecord& light = by.light;
-    if (is(light, LightType::directional)) return !is_clipped(by, cell);
+    const LightBounds bounds = facts_of(static_cast<LightType>(light.type)).bounds;
+    if (bounds == LightBounds::everywhere) return !is_clipped(by, cell);
     if (!sphere_touches(light.position, light.range + by.slack, cell)) return false;
-    if (is(light, LightType::round_spot) && !round_spot_touches(light, cell, by.slack)) return false;
-    if (is(light, LightType::square_spot) && !square_spot_touches(light, cell, by.slack)) return false;
-    if (is(light, LightType::rectangle) && !half_box_touches(light, cell, by.slack)) return false;
-    if (is(light, LightType::disc) && reach_from(light.direction, light.position, cell).y < -by.slack) return false;
+    if (bounds == LightBounds::round_cone && !round_spot_touches(light, cell, by.slack)) return false;
+    if (bounds == LightBounds::pyramid && !square_spot_touches(light, cell, by.slack)) return false;
+    if (bounds == LightBounds::half_box && !half_box_touches(light, cell, by.slack)) return false;
+    const bool is_half = bounds == LightBounds::half_sphere;
+    if (is_half && reach_from(light.direction, light.position, cell).y < -by.slack) return false;
     return !is_clipped(by, cell);
 }
 

@@ -6,7 +6,7 @@
 #include "passes/shaders/camera.glsl"
 #include "passes/shaders/light_types.glsl"
 
-// Metres. Squares of it are finite, and so are sums of them.
+// Meters. Squares of it are finite, and so are sums of them.
 const float farthest_cell = 1e18;
 // What a position may be off, and a distance from it, relative to the largest number in its computation: 64 ulps of a float.
 const float relative_slack = 4e-6;
@@ -16,7 +16,7 @@ const float cosine_slack = 1e-6;
 // more reach so much farther.
 const float axis_slack = 1.01;
 
-// Of tile_size x tile_size pixels, cut off at the picture's edge, from z_near to z_far (metres of view depth; equal is legal).
+// Of tile_size x tile_size pixels, cut off at the picture's edge, from z_near to z_far (meters of view depth; equal is legal).
 Cell tile_cell(uvec2 tile, uint tile_size, float z_near, float z_far) {
     const uvec2 first = tile * tile_size, last = min(first + tile_size, view.extent);
     const vec2 upper_left = view_ray(vec2(first)).xy, lower_right = view_ray(vec2(last)).xy;
@@ -36,7 +36,7 @@ Cell tile_cell(uvec2 tile, uint tile_size, float z_near, float z_far) {
     return cell;
 }
 
-// Metres within which "outside" proves nothing.
+// Meters within which "outside" proves nothing.
 float cell_slack(LightRecord light, Cell cell) {
     const vec3 corner = max(abs(cell.corners[4]), abs(cell.corners[7]));
     const float reach = light.range * (1.0 + light.tan_half.x + light.tan_half.y);
@@ -150,10 +150,10 @@ bool is_straddled(LightRecord light, Cell cell) {
 
 bool light_touches(LightRecord light, Cell cell) {
     const float slack = cell_slack(light, cell);
-    if (light.type == light_directional) return !is_clipped(light, cell, slack);
+    if (!light_has_range(light.type)) return !is_clipped(light, cell, slack);
     if (!sphere_touches(light.position, light.range + slack, cell)) return false;
-    if (light.type == light_round_spot && !round_spot_touches(light, cell, slack)) return false;
-    if (light.type == light_square_spot && !square_spot_touches(light, cell, slack)) return false;
+    if (light_has_round_cone(light.type) && !round_spot_touches(light, cell, slack)) return false;
+    if (light_has_square_cone(light.type) && !square_spot_touches(light, cell, slack)) return false;
     if (light.type == light_rectangle && !half_box_touches(light, cell, slack)) return false;
     // One-sided, too, but its axis_u may be anything.
     if (light.type == light_disc && is_beyond(light.direction, light.position, cell, slack)) return false;

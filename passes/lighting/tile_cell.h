@@ -8,21 +8,26 @@
 #include <glm/glm.hpp>
 
 #include "passes/lighting/cells.h"
-#include "passes/shaders/scene.shared.h"
+
+namespace strata {
+
+struct ViewRecord;  // passes/shaders/scene/view.shared.h
+
+}  // namespace strata
 
 namespace strata::lighting {
 
 /// The ray (x, y, 1) through a point of the image; pixel centers are at +.5.
 glm::vec3 view_ray(const ViewRecord&, glm::vec2 pixel);
 
-/// Of tile_size x tile_size pixels, cut off at the picture's edge, from z_near to z_far (metres of view depth).
+/// Of tile_size x tile_size pixels, cut off at the picture's edge, from z_near to z_far (meters of view depth).
 Cell<float> tile_cell(const ViewRecord&, glm::uvec2 tile, std::uint32_t tile_size, glm::vec2 z_near_far);
 
 /// The numbers of a light that culling asks.
 struct TouchedBy {
     const LightRecord& light;
     std::span<const ClipPlaneRecord> clip_planes;  ///< the scene's
-    float slack = 0;                               ///< metres within which "outside" proves nothing
+    float slack = 0;                               ///< meters within which "outside" proves nothing
 };
 float cell_slack(const LightRecord&, const Cell<float>&);
 

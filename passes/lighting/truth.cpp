@@ -4,6 +4,7 @@
 #include <tbb/task_group.h>
 
 #include "passes/lighting/every_light.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 namespace {

@@ -2,9 +2,11 @@
 // earlier stages gave, so that this stage is judged alone.
 #pragma once
 
-#include "passes/stages.h"
+#include "passes/image_set.h"
 
 namespace strata {
+
+struct StageInput;  // passes/stage_input.h
 
 ImageSet lighting_truth(const StageInput&);
 

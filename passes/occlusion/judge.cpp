@@ -5,6 +5,7 @@
 
 #include "passes/reference/decoded.h"
 #include "passes/reference/difference.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 namespace {
@@ -42,7 +43,7 @@ struct Sums {
 
 }  // namespace
 
-std::vector<Figure> occlusion_judge(const ImageSet& result, const ImageSet& truth, const StageInput& input) {
+std::vector<Metric> occlusion_judge(const ImageSet& result, const ImageSet& truth, const StageInput& input) {
     const ReferenceImage &got = result.at("occlusion"), &wanted = truth.at("occlusion");
     const ReferenceImage* normal = find(input.before, "surface_normal");
     Sums sums;

@@ -9,7 +9,7 @@
 
 namespace strata::occlusion {
 
-inline constexpr std::array<double, 4> radii = {0.5, 1, 2, 4};  // metres
+inline constexpr std::array<double, 4> radii = {0.5, 1, 2, 4};  // meters
 inline constexpr std::array<std::string_view, 4> radius_names = {"50cm", "1m", "2m", "4m"};
 /// The reach of X-Ray's attenuation (docs/algorithms/deferred.md 8.4). Its truth is the stage's.
 inline constexpr std::uint32_t default_radius = 2;

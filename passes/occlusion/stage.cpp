@@ -1,6 +1,8 @@
 // The stage occlusion: what it writes, and when a frame does not need it.
+#include "capture_format/frame_features.h"
 #include "passes/occlusion/judge.h"
 #include "passes/occlusion/truth.h"
+#include "passes/stage_input.h"
 #include "passes/stages.h"
 
 namespace strata::occlusion {
@@ -15,6 +17,7 @@ std::optional<std::string> unwanted(const Features& features) {
 
 StageInfo stage() {
     return {.purpose = "darkens ambient light in corners",
+            .aliases = {"ao"},
             .unwanted = unwanted,
             .outputs = {"occlusion"},
             .truth = occlusion_truth,

@@ -10,6 +10,7 @@
 
 #include "passes/reference/estimated_image.h"
 #include "passes/reference/rays.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 namespace {
@@ -38,7 +39,7 @@ constexpr std::array<Truth, 4> product = {traced_truth<0, MaterialRule::product>
 constexpr std::array<Truth, 4> darker = {traced_truth<0, MaterialRule::darker>, traced_truth<1, MaterialRule::darker>,
                                          traced_truth<2, MaterialRule::darker>, traced_truth<3, MaterialRule::darker>};
 
-std::string length(double metres) { return metres < 1 ? fmt::format("{} cm", 100 * metres) : fmt::format("{} m", metres); }
+std::string length(double meters) { return meters < 1 ? fmt::format("{} cm", 100 * meters) : fmt::format("{} m", meters); }
 
 /// What the truths are, for people, in the order of the radii.
 std::array<std::string, radii.size()> sentences(MaterialRule rule) {

@@ -10,10 +10,13 @@
 
 #include <vector>
 
+#include "passes/figure.h"
 #include "passes/occlusion/radii.h"
-#include "passes/stages.h"
+#include "passes/reference/image.h"
 
 namespace strata {
+
+struct StageInput;  // passes/stage_input.h
 
 /// Directions over a sample: `batches` independent sets of side x side, each with one direction in every part of the hemisphere.
 struct TracedDirections {

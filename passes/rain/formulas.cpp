@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "capture_format/frame/frame.h"
 #include "passes/reference/pcg.h"
 
 namespace strata::rain {

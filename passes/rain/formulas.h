@@ -19,7 +19,7 @@ struct Shown {
 /// The surface with water on it; `arriving` is the share of rain that nothing keeps away. Unlit surfaces stay as they are.
 SurfacePoint wet_surface(const Frame&, const SurfacePoint& dry, const Look&, double arriving, const Shown& = {});
 
-/// Change of the water's height along x and z of the world at a world position, where rings are (per metre).
+/// Change of the water's height along x and z of the world at a world position, where rings are (per meter).
 glm::dvec2 ring_gradient(const Frame&, const glm::dvec3& world, double height);
 /// 1 in a puddle, 0 outside, for wetness times puddles.
 double puddle_at(const glm::dvec3& world, double amount);

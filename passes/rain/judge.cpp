@@ -7,6 +7,7 @@
 #include "passes/rain/formulas.h"
 #include "passes/reference/decoded.h"
 #include "passes/reference/difference.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 namespace {
@@ -58,7 +59,7 @@ glm::dvec4 fully_wet_color(const StageInput& input, const DecodedTexels& texels,
 
 }  // namespace
 
-std::vector<Figure> rain_judge(const ImageSet& result, const ImageSet& truth, const StageInput& input) {
+std::vector<Metric> rain_judge(const ImageSet& result, const ImageSet& truth, const StageInput& input) {
     const ReferenceImage &wanted = truth.at("surface_color"), &wanted_normal = truth.at("surface_normal");
     const ReferenceImage &got = result.at("surface_color"), &got_normal = result.at("surface_normal");
     Sums sums;

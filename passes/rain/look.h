@@ -12,8 +12,8 @@ struct Look {
     std::uint32_t form = form_porosity;
     double albedo = 0.5;           ///< of a soaked porous surface, relative to its dry one
     double gloss = 0.8;            ///< 1 - roughness of a soaked porous surface
-    double ripple_height = 0.002;  ///< metres
-    double flow_height = 0.003;    ///< metres
+    double ripple_height = 0.002;  ///< meters
+    double flow_height = 0.003;    ///< meters
     double puddles = 0.5;          ///< with the recorded wetness, how much of a level floor they cover
 };
 

@@ -1,4 +1,5 @@
 // The stage rain: what it writes, and when a frame does not need it.
+#include "capture_format/frame_features.h"
 #include "passes/rain/judge.h"
 #include "passes/rain/look.h"
 #include "passes/rain/truth.h"

@@ -8,16 +8,18 @@
 #include <tbb/parallel_for.h>
 #include <glm/gtc/quaternion.hpp>
 
+#include "capture_format/frame/frame.h"
 #include "passes/rain/formulas.h"
 #include "passes/rain/look.h"
 #include "passes/reference/decoded.h"
 #include "passes/reference/directions.h"
 #include "passes/reference/rays.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 namespace {
 
-// Farther than anything casts: of a scene in metres.
+// Farther than anything casts: of a scene in meters.
 constexpr double above_everything = 1e6;
 
 /// Calls visit(texel, surface) for every surface of the images before the stage; rows run in parallel.

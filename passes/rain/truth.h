@@ -3,9 +3,12 @@
 
 #include <span>
 
-#include "passes/stages.h"
+#include "passes/image_set.h"
+#include "passes/reference/image.h"
 
 namespace strata {
+
+struct StageInput;  // passes/stage_input.h
 
 /// surface_color, surface_normal and surface_material. Rain arrives at a sample where no caster lies on the one ray that runs
 /// from it against the rain's direction: 0 or 1, at any distance. Waves are as high however small they are on the screen.

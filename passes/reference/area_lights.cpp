@@ -5,6 +5,9 @@
 #include <numbers>
 #include <vector>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/texture.h"
+#include "capture_format/light_types.h"
 #include "passes/reference/brdf.h"
 #include "passes/reference/ltc_table.h"
 #include "passes/reference/placed_light.h"
@@ -106,12 +109,12 @@ Polygon tube(const PlacedLight& at, const dvec3& normal) {
 
 // Around the surface at the origin, counter-clockwise seen from there.
 Polygon outline(const PlacedLight& at, const dvec3& normal) {
-    switch (at.light->type) {
-        case LightType::sphere:
+    switch (facts_of(at.light->type).shape) {
+        case LightShape::sphere:
             return sphere(at, normal);
-        case LightType::disc:
+        case LightShape::disc:
             return disc(at, normal);
-        case LightType::tube:
+        case LightShape::tube:
             return tube(at, normal);
         default:
             return rectangle(at);
@@ -156,7 +159,7 @@ struct Lobe {
 
 dvec3 radiance(const PlacedLight& at, const Lobe& lobe) {
     const dvec3 intensity = at.light->intensity;
-    if (at.light->type != LightType::rectangle || at.light->texture == no_index) return intensity;
+    if (facts_of(at.light->type).shape != LightShape::rectangle || at.light->texture == no_index) return intensity;
     const Texture& texture = at.frame->textures[at.light->texture];
     const double along = glm::dot(at.offset, at.direction) / std::min(glm::dot(lobe.axis, at.direction), -1e-4);
     const dvec3 hit = along * lobe.axis - at.offset;
@@ -168,8 +171,9 @@ dvec3 radiance(const PlacedLight& at, const Lobe& lobe) {
 
 // Towards the nearest point of the emitter, or against the direction of a flat one: all of it lies on that side.
 dvec3 facing(const PlacedLight& at, const dvec3& normal) {
-    if (at.light->type == LightType::sphere) return direction_to(at.offset, normal);
-    if (at.light->type != LightType::tube) return -at.direction;
+    const LightShape shape = facts_of(at.light->type).shape;
+    if (shape == LightShape::sphere) return direction_to(at.offset, normal);
+    if (shape != LightShape::tube) return -at.direction;
     const double half = double(at.light->half_extent.x);
     return direction_to(at.offset + at.axis_u * std::clamp(-glm::dot(at.offset, at.axis_u), -half, half), normal);
 }

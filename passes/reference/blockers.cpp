@@ -7,22 +7,25 @@
 #include <cmath>
 #include <limits>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/light_types.h"
 #include "passes/reference/shade.h"
 
 namespace strata {
 namespace {
 
-// docs/algorithms/lighting.md 2.2: metres a point must lie behind a plane (d_P), and a light before it (d_L; of directional
+// docs/algorithms/lighting.md 2.2: meters a point must lie behind a plane (d_P), and a light before it (d_L; of directional
 // lights a cosine). off_surface() moves a point by 1 cm; with a d_P of as much, the far face of a wall would lie on the threshold
 // and be lit through its own blocker. Half of it leaves 5 mm to either side.
 constexpr double point_behind = 0.005, light_before = 0.02, direction_before = 1e-3;
-// docs/algorithms/lighting.md 2.2, what blockers grow by: as a share and in metres. Portals that abut grow by `joined` metres.
+// docs/algorithms/lighting.md 2.2, what blockers grow by: as a share and in meters. Portals that abut grow by `joined` meters.
 constexpr double grown = 1e-5, joined = 1e-4;
 // Portals whose directions are this close have the same turn.
 constexpr double same_turn = 1e-5;
 // Meters: a portal has no area in common with a blocker where that is thinner. World positions 1000 km away round to 1e-10.
 constexpr double thinnest = 1e-9;
-constexpr double nearest_offset = 0.01, offset_per_metre = 5e-4;
+constexpr double nearest_offset = 0.01, offset_per_meter = 5e-4;
 
 double light_threshold(const glm::dvec4& light) { return light.w > 0 ? light_before : direction_before; }
 
@@ -264,12 +267,12 @@ LightBlockers light_blockers(const Frame& frame, const Light& light) {
 }
 
 glm::dvec4 light_point(const Frame& frame, const Light& light) {
-    if (light.type == LightType::directional) return {-(frame.view.to_view * glm::dvec3(light.direction)), 0};
+    if (!has_range(light.type)) return {-(frame.view.to_view * glm::dvec3(light.direction)), 0};
     return {to_view(frame, light.position), 1};
 }
 
 glm::dvec3 off_surface(const glm::dvec3& position, const glm::dvec3& normal) {
-    return position + normal * std::max(nearest_offset, offset_per_metre * position.z);
+    return position + normal * std::max(nearest_offset, offset_per_meter * position.z);
 }
 
 std::optional<glm::dvec2> crossing(const PlacedBlocker& blocker, const glm::dvec4& light, const glm::dvec3& position) {

@@ -7,15 +7,17 @@
 // portals (docs/algorithms/lighting.md 0.2, N16).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
-
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
+struct Light;  // capture_format/frame/light.h
 
 /// Most blockers and most portals of a light.
 inline constexpr std::size_t most_light_blockers = 32, most_light_portals = 32;
@@ -76,8 +78,8 @@ bool clear_between(const LightBlockers&, const glm::dvec3& position, const glm::
 /// Edges as wide as a light of this radius makes them (docs/algorithms/lighting.md 2.2), and blockers that fade while the light
 /// comes through their plane (docs/algorithms/lighting.md 2.6).
 struct SoftEdges {
-    double radius = 0;  ///< of the source, metres; the tangent of its angular radius when directional; 0 has hard edges
-    double fade = 0;    ///< a blocker reaches full strength this far beyond the distance from which it acts; 0 is at once
+    double radius = 0;  ///< of the source, meters; the tangent of its angular radius when directional; 0 has hard edges
+    double fade = 0;    ///< a blocker reaches full strength this far beyond the distance from which it applies; 0 is at once
 };
 /// 0 dark to 1 lit. Without radius and fade what lets_through() says.
 double soft_visibility(const LightBlockers&, const glm::dvec4& light, const glm::dvec3& position, const SoftEdges&);

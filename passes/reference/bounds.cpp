@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
 #include "passes/reference/triangles.h"
 
 namespace strata {

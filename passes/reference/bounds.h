@@ -5,9 +5,9 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
-
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
 
 struct Sphere {
     glm::dvec3 center{0};

@@ -102,12 +102,12 @@ double normal_distribution(double x, double deviation) {
     return std::exp(-0.5 * std::pow(x / deviation, 2)) / (deviation * std::sqrt(2 * pi));
 }
 
-/// Kajiya and Kay 1989 with the highlights of Scheuermann 2004. The angle around the fibre is made from what is across it: near
+/// Kajiya and Kay 1989 with the highlights of Scheuermann 2004. The angle around the fiber is made from what is across it: near
 /// pi its cosine would hold half the digits.
 glm::dvec3 hair(const SurfacePoint& surface, const glm::dvec3& to_light, const glm::dvec3& to_eye) {
-    const glm::dvec3& fibre = surface.normal;
-    const double sine_l = glm::dot(fibre, to_light), sine_v = glm::dot(fibre, to_eye);
-    const glm::dvec3 light_across = to_light - sine_l * fibre, eye_across = to_eye - sine_v * fibre;
+    const glm::dvec3& fiber = surface.normal;
+    const double sine_l = glm::dot(fiber, to_light), sine_v = glm::dot(fiber, to_eye);
+    const glm::dvec3 light_across = to_light - sine_l * fiber, eye_across = to_eye - sine_v * fiber;
     const double azimuth = std::atan2(glm::length(glm::cross(light_across, eye_across)), glm::dot(light_across, eye_across));
     const double around = std::cos(azimuth / 2) / 4, deviation = std::max(surface.roughness * surface.roughness, 0.01);
     const double white = normal_distribution(sine_l + sine_v + 0.07, deviation);

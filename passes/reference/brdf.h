@@ -18,10 +18,10 @@ inline constexpr double smallest_cosine = 1e-4;
 glm::dvec3 brdf(const SurfacePoint&, glm::dvec3 to_light, glm::dvec3 to_eye);
 
 /// The cosine that irradiance comes in by: 0 from behind, but for skin, which light wraps around, and for hair, where it is the
-/// sine between light and fibre.
+/// sine between light and fiber.
 double brdf_cosine(const SurfacePoint&, const glm::dvec3& to_light);
 
-/// The normal, or of hair, whose `normal` is the fibre, the one that faces the eye at the origin.
+/// The normal, or of hair, whose `normal` is the fiber, the one that faces the eye at the origin.
 glm::dvec3 facing_normal(const SurfacePoint&);
 
 /// Burley's diffuse lobe relative to Lambert: plain, and with Frostbite's energy bias and factor. Cosines in 0..1.

@@ -8,9 +8,9 @@
 namespace strata {
 namespace {
 
-// Metres a ray starts off its surface, at least and per metre of view depth: the coarsest G-buffer's positions are up to 4.9e-4
+// Meters a ray starts off its surface, at least and per meter of view depth: the coarsest G-buffer's positions are up to 4.9e-4
 // of their depth behind it (passes/gbuffer).
-constexpr double least_lift = 1e-3, lift_per_metre = 5e-4;
+constexpr double least_lift = 1e-3, lift_per_meter = 5e-4;
 
 }  // namespace
 
@@ -48,7 +48,7 @@ glm::dvec3 cosine_direction(const glm::dvec3& normal, const glm::dvec2& place) {
 }
 
 glm::dvec3 ray_start(const glm::dvec3& position, const glm::dvec3& normal) {
-    return position + normal * std::max(least_lift, lift_per_metre * position.z);
+    return position + normal * std::max(least_lift, lift_per_meter * position.z);
 }
 
 }  // namespace strata

@@ -25,7 +25,7 @@ Estimate estimate(const std::vector<glm::dvec3>& batches) {
 }
 
 /// A surface's place, in depth and in the pixel (passes/reference/place_code.h), and its side are all that is asked; of hair, the
-/// lighting model makes a side of the fibre.
+/// lighting model makes a side of the fiber.
 bool is_first_again(const GivenSurfaces& given, std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
     const glm::dvec4 &first = given.material.at(x, y), &other = given.material.at(x, y, sample);
     return given.normal.at(x, y) == given.normal.at(x, y, sample) && first.x == other.x && first.w == other.w;

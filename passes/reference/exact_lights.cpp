@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "capture_format/light_types.h"
 #include "passes/reference/brdf.h"
 #include "passes/reference/cubature.h"
 #include "passes/reference/directions.h"
@@ -19,7 +20,7 @@ using std::numbers::pi;
 constexpr double wide_lobe = 0.25;
 
 struct EmitterPoint {
-    dvec3 to;           ///< from the surface, metres
+    dvec3 to;           ///< from the surface, meters
     double weight = 0;  ///< solid angle per area of the unit square
     dvec2 place{0};     ///< on the picture, -1 to 1
 };
@@ -123,12 +124,12 @@ void add_cap(const TubeFrame& tube, const dvec3& center, const dvec3& axis, std:
 }
 
 std::vector<Piece> pieces_of(const PlacedLight& at, const dvec3& normal) {
-    switch (at.light->type) {
-        case LightType::sphere:
+    switch (facts_of(at.light->type).shape) {
+        case LightShape::sphere:
             return {emitting_sphere(at, normal)};
-        case LightType::disc:
+        case LightShape::disc:
             return {emitting_disc(at)};
-        case LightType::rectangle:
+        case LightShape::rectangle:
             return {emitting_rectangle(at)};
         default:
             break;

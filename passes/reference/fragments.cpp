@@ -1,4 +1,4 @@
-// Transparent events per sample, and the nearest surfaces. Rows are independent, so bits do not depend on threads.
+// Transparent fragments per sample, and the nearest surfaces. Rows are independent, so bits do not depend on threads.
 #include "passes/reference/fragments.h"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -10,6 +10,9 @@
 #include <optional>
 #include <utility>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/particles.h"
 #include "capture_format/frame_features.h"
 #include "passes/reference/blockers.h"
 #include "passes/reference/lights.h"
@@ -22,7 +25,7 @@ namespace {
 
 // Depths a float cannot tell apart after an interpolation, relative: two ulps.
 constexpr double depth_rounding = 0x1p-22;
-// Smaller coverage and emission than this is not an event (docs/algorithms/transparency.md 0.2).
+// Smaller coverage and emission than this is not a fragment (docs/algorithms/transparency.md 0.2).
 constexpr double smallest_alpha = 1e-5, smallest_emission = 1e-6;
 
 double finite(double value) { return std::isfinite(value) ? value : 0; }
@@ -55,7 +58,7 @@ glm::dvec3 lit(const LitFrame& scene, const SurfacePoint& surface) {
     return sum;
 }
 
-Fragment event(AlphaMode mode, double alpha, const SurfacePoint& surface, const glm::dvec3& light) {
+Fragment fragment_of(AlphaMode mode, double alpha, const SurfacePoint& surface, const glm::dvec3& light) {
     Fragment result;
     if (mode == AlphaMode::additive) {
         result.emission = alpha * (light + surface.emissive);
@@ -75,7 +78,7 @@ glm::dvec3 particle_color(const LitFrame& scene, const SurfacePoint& surface) {
 }
 
 // surface.base_color is c, its emissive e before fading.
-Fragment particle_event(AlphaMode mode, double particle_alpha, const SurfacePoint& surface, double fade) {
+Fragment particle_fragment(AlphaMode mode, double particle_alpha, const SurfacePoint& surface, double fade) {
     const double alpha = std::clamp(finite(surface.alpha * fade), 0.0, 1.0);
     Fragment result;
     result.emission = surface.emissive * fade;
@@ -98,9 +101,9 @@ void fog(const Frame& frame, const glm::dvec3& position, Fragment& fragment) {
     fragment.emission *= at.remains;
 }
 
-// The event of a point, or nothing where it is too faint to count.
-std::optional<Fragment> event_at(const LitFrame& scene, const RasterPoint& point, const RasterTriangle& triangle,
-                                 double opaque_depth) {
+// The fragment of a point, or nothing where it is too faint to count.
+std::optional<Fragment> fragment_at(const LitFrame& scene, const RasterPoint& point, const RasterTriangle& triangle,
+                                    double opaque_depth) {
     const Frame& frame = scene.frame;
     const double z = double(frame.view.near) / point.depth;
     if (!std::isfinite(z)) return std::nullopt;
@@ -109,7 +112,7 @@ std::optional<Fragment> event_at(const LitFrame& scene, const RasterPoint& point
     double depth_offset = 0;
     if (const Material* material = material_of(frame, point.draw)) {
         const double alpha = std::clamp(finite(surface.alpha), 0.0, 1.0);
-        fragment = event(material->alpha_mode, alpha, surface, lit(scene, surface));
+        fragment = fragment_of(material->alpha_mode, alpha, surface, lit(scene, surface));
         fragment.distortion = double(material->distortion) * glm::dvec2(surface.normal.x, -surface.normal.y);
     } else {
         const Emitter& emitter = frame.emitters[point.draw - frame.draws.size()];
@@ -119,7 +122,7 @@ std::optional<Fragment> event_at(const LitFrame& scene, const RasterPoint& point
         const bool soft = emitter.soft_depth_fade > 0 && opaque_depth > 0;
         const double fade = soft ? std::clamp(room / double(emitter.soft_depth_fade), 0.0, 1.0) : 1.0;
         surface.base_color = particle_color(scene, surface);
-        fragment = particle_event(emitter.alpha_mode, particle.alpha, surface, fade);
+        fragment = particle_fragment(emitter.alpha_mode, particle.alpha, surface, fade);
         fragment.soft_fade = double(emitter.soft_depth_fade);
         depth_offset = particle.depth_offset;
     }
@@ -152,7 +155,7 @@ struct FoundRow {
 };
 
 // Whether the result depends on the order of two fragments whose depths a float cannot tell apart. Exact ties are decided by
-// submission; events that cover nothing commute.
+// submission; fragments that cover nothing commute.
 // `sorted` is memory to reuse.
 bool order_is_undecided(std::span<const Fragment> list, std::vector<const Fragment*>& sorted) {
     sorted.resize(list.size());
@@ -276,7 +279,7 @@ void FragmentRows::fill(std::uint32_t y, FragmentRow& row) const {
         const double opaque_depth = scene_->depth.at(point.x, point.y, point.sample).x;
         const DepthTest test = depth_test(point, opaque_depth);
         if (test == DepthTest::fails) return;
-        std::optional<Fragment> fragment = event_at(scene_->lit, point, triangle, opaque_depth);
+        std::optional<Fragment> fragment = fragment_at(scene_->lit, point, triangle, opaque_depth);
         if (!fragment) return;
         if (scene_->has_interfaces) {
             fragment->layer = layer_of(frame, point.draw);

@@ -12,6 +12,7 @@
 // Jitter is added to clip space x / w and y / w, y down: positive jitter moves the image right and down.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -20,21 +21,23 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
 #include "passes/reference/image.h"
 
 namespace strata {
 
-/// A transparent event: L_out = p + e + t L_behind. Fog is already in it (docs/algorithms/transparency.md 0.4).
+struct Frame;  // capture_format/frame.h
+struct View;   // capture_format/view.h
+
+/// A transparent fragment: L_out = p + e + t L_behind. Fog is already in it (docs/algorithms/transparency.md 0.4).
 struct Fragment {
-    double depth = 0;              ///< view z in metres, depth offset applied, or an interface layer's: what ordering uses
+    double depth = 0;              ///< view z in meters, depth offset applied, or an interface layer's: what ordering uses
     glm::dvec3 color{0};           ///< premultiplied scattered radiance p
     glm::dvec3 transmittance{1};   ///< t per channel
     glm::dvec3 emission{0};        ///< e, added without coverage
     double alpha = 0;              ///< scalar coverage
     glm::dvec2 distortion{0};      ///< d, in uv: how far from here what is behind is seen, added without coverage
     double fog = 1;                ///< share of its radiance that reaches the eye through the fog before it
-    double soft_fade = 0;          ///< metres over which its particle fades before opaque surfaces; 0 is hard
+    double soft_fade = 0;          ///< meters over which its particle fades before opaque surfaces; 0 is hard
     std::uint32_t layer = 0;       ///< of interfaces, of which `depth` is made; 0 the world
     std::uint32_t submission = 0;  ///< later submissions are nearer at equal depth; one number per triangle
 };

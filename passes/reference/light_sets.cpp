@@ -1,5 +1,8 @@
 #include "passes/reference/light_sets.h"
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/light_types.h"
 #include "passes/reference/shade.h"
 
 namespace strata {
@@ -7,25 +10,13 @@ namespace {
 
 bool is_black(const glm::vec3& color) { return color.x == 0 && color.y == 0 && color.z == 0; }
 
-bool can_be_mapped(LightType type) {
-    switch (type) {
-        case LightType::round_spot:
-        case LightType::square_spot:
-        case LightType::omni:
-        case LightType::sphere:
-            return true;
-        default:
-            return false;
-    }
-}
-
 }  // namespace
 
 std::vector<Light> shining_lights(const Frame& frame) {
     std::vector<Light> shining;
     if (!is_black(frame.sun.irradiance)) shining.push_back(sun_light(frame));
     for (const Light& light : frame.lights) {
-        const bool reaches = light.type == LightType::directional || light.range > 0;
+        const bool reaches = !has_range(light.type) || light.range > 0;
         if (reaches && !is_black(light.intensity)) shining.push_back(light);
     }
     return shining;
@@ -37,7 +28,7 @@ std::vector<std::uint32_t> mapped_lights(const Frame& frame) {
     std::vector<std::uint32_t> mapped;
     for (std::uint32_t i = 0; i < shining.size(); ++i) {
         const bool is_sun = has_sun && i == 0;
-        if (shining[i].shadow.casts && (is_sun || can_be_mapped(shining[i].type))) mapped.push_back(i);
+        if (shining[i].shadow.casts && (is_sun || facts_of(shining[i].type).maps != LightMaps::none)) mapped.push_back(i);
     }
     return mapped;
 }

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/light.h"
 
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
 
 /// Lights that can add light to anything: the sun first, unless it is black, then the frame's, without those that are black or,
 /// unless directional, reach nowhere. Images with a layer per light have this order.

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/texture.h"
+#include "capture_format/light_types.h"
 #include "passes/reference/placed_light.h"
 #include "passes/reference/textures.h"
 
@@ -18,11 +21,11 @@ constexpr double least_cone = 1e-4;
 // Tangents of the half angles of what a spot throws: a square one has its own for u and v.
 glm::dvec2 spread(const Light& light) {
     const double u = std::tan(double(light.outer_angle));
-    return {u, light.type == LightType::square_spot ? std::tan(double(light.inner_angle)) : u};
+    return {u, facts_of(light.type).cone == LightCone::square ? std::tan(double(light.inner_angle)) : u};
 }
 
 double spot_share(const PlacedLight& at, const glm::dvec3& to_light) {
-    if (at.light->type == LightType::round_spot) return round_spot_share(*at.light, glm::dot(-to_light, at.direction));
+    if (facts_of(at.light->type).cone == LightCone::round) return round_spot_share(*at.light, glm::dot(-to_light, at.direction));
     if (glm::dot(-to_light, at.direction) <= 0) return 0;
     return square_spot_share(place_in_spot(*at.light, away(at)));
 }
@@ -63,13 +66,13 @@ struct Incident {
 
 Incident incident(const PlacedLight& at, const SurfacePoint& surface) {
     const glm::dvec3 intensity = at.light->intensity;
-    if (at.light->type == LightType::directional) return {-at.direction, intensity};
+    if (!has_range(at.light->type)) return {-at.direction, intensity};
     const double distance = glm::length(at.offset);
     if (distance == 0) return {};
     const glm::dvec3 to_light = at.offset / distance;
     const double squared = std::max(distance * distance, nearest_light * nearest_light);
     glm::dvec3 share(range_window(distance, double(at.light->range)) / squared);
-    if (is_spot(*at.light)) {
+    if (is_spot(at.light->type)) {
         share *= spot_share(at, to_light);
         if (share != glm::dvec3(0) && at.light->texture != no_index) share *= thrown_color(at, surface);
     }
@@ -127,23 +130,14 @@ PlacedLight placed(const Frame& frame, const SurfacePoint& surface, const Light&
     return {&frame, &light, to_view(frame, light.position) - surface.position, direction, axis_u, glm::cross(direction, axis_u)};
 }
 
-bool is_spot(const Light& light) { return light.type == LightType::round_spot || light.type == LightType::square_spot; }
-
-bool is_area(LightType type) {
-    return type == LightType::tube || type == LightType::sphere || type == LightType::disc || type == LightType::rectangle;
-}
-
 glm::dvec3 away(const PlacedLight& at) {
     return {-glm::dot(at.offset, at.axis_u), -glm::dot(at.offset, at.axis_v), -glm::dot(at.offset, at.direction)};
 }
 
-bool is_behind(const PlacedLight& at) {
-    const bool flat = at.light->type == LightType::disc || at.light->type == LightType::rectangle;
-    return flat && glm::dot(-at.offset, at.direction) <= 0;
-}
+bool is_behind(const PlacedLight& at) { return is_flat(at.light->type) && glm::dot(-at.offset, at.direction) <= 0; }
 
 glm::dvec3 emitted_color(const PlacedLight& at, const glm::dvec2& place, double lod) {
-    if (at.light->type != LightType::rectangle || at.light->texture == no_index) return glm::dvec3(1);
+    if (facts_of(at.light->type).shape != LightShape::rectangle || at.light->texture == no_index) return glm::dvec3(1);
     Texture const& texture = at.frame->textures[at.light->texture];
     // Within half a texel of the border there is no other side to repeat.
     const auto inside = [&](const glm::dvec2& uv, std::uint32_t mip) {
@@ -173,7 +167,7 @@ glm::dvec3 exact_reflected(const Frame& frame, const SurfacePoint& surface, cons
     }
     const glm::dvec3 radiance = reflected_punctual(surface, at);
     if (!options.visible || radiance == glm::dvec3(0)) return radiance;
-    const bool directional = light.type == LightType::directional;
+    const bool directional = !has_range(light.type);
     return radiance * options.visible(directional ? glm::dvec4(-at.direction, 0) : glm::dvec4(surface.position + at.offset, 1));
 }
 

@@ -7,15 +7,14 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
 #include "passes/reference/shade.h"
 
 namespace strata {
 
-/// Metres: the inverse square law ends here (docs/algorithms/lighting.md 0.3, e).
+/// Meters: the inverse square law ends here (docs/algorithms/lighting.md 0.3, e).
 inline constexpr double nearest_light = 0.01;
 
-/// Radiance towards the eye at the origin from one light without shadow and blockers, by the methods of
+/// Radiance towards the eye at the origin from one light without shadow and blockers, by the techniques of
 /// passes/shaders/lights.glsl: points exactly (pictures filtered over the pixel's footprint), areas by Lambert's polygons (round
 /// ones have 16 corners) and linearly transformed cosines, what Burley adds to Lambert, and all of cloth, skin and hair, as
 /// from the emitter's mean direction.

@@ -6,7 +6,7 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/material.h"
 #include "passes/shaders/ltc.shared.h"
 
 namespace strata {

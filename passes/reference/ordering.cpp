@@ -6,6 +6,9 @@
 #include <numeric>
 #include <utility>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/shade.h"
 #include "passes/reference/triangles.h"

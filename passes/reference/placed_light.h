@@ -3,7 +3,6 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
 #include "passes/reference/lights.h"
 
 namespace strata {
@@ -20,8 +19,6 @@ PlacedLight placed(const Frame&, const SurfacePoint&, const Light&);
 /// The direction from the light towards the surface in its axes (u, v, along), as long as the way.
 glm::dvec3 away(const PlacedLight&);
 
-bool is_spot(const Light&);
-bool is_area(LightType);
 /// Whether a disc or rectangle turns its back.
 bool is_behind(const PlacedLight&);
 /// Of radiance, between -1 and 1 over the rectangle; 1 without a picture.

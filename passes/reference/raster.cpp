@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
 #include "passes/reference/shade.h"
 
 namespace strata {

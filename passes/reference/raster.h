@@ -11,11 +11,12 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/triangles.h"
 
 namespace strata {
+
+struct Mesh;  // capture_format/frame/mesh.h
 
 /// Steps per pixel that positions are snapped to here, as devices with 8 bits below the pixel do (subPixelPrecisionBits).
 inline constexpr std::int64_t snap_steps = 256;
@@ -28,7 +29,7 @@ struct RasterEdge {
     std::int64_t dx = 0, dy = 0, offset = 0;
     double inverse_length = 0;
     bool top_left = false;  ///< a sample exactly on it is covered
-    bool decides = true;    ///< false: the neighbour behind it continues this triangle, so either may cover the sample
+    bool decides = true;    ///< false: the neighbor behind it continues this triangle, so either may cover the sample
 };
 
 /// A triangle clipped to the near plane (3 to 4 sides) and to a guard band far outside the image (up to 8).

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/surfaces.h"
 #include "passes/reference/triangles.h"

@@ -8,9 +8,9 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
-
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
 
 struct Hit {
     double distance = 0;

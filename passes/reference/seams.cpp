@@ -3,6 +3,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "capture_format/frame/mesh.h"
 #include "passes/reference/raster.h"
 
 namespace strata {

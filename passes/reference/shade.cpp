@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
 #include "passes/reference/brdf.h"
 #include "passes/reference/ltc_table.h"
 
@@ -56,8 +57,8 @@ double fog_way(FogPath path, const glm::dvec3& position) {
     return path == FogPath::distance ? glm::length(position) : position.z;
 }
 
-FogAt fog_at(const Frame& frame, double metres) {
-    const double remains = std::exp(-double(frame.fog.density) * metres);
+FogAt fog_at(const Frame& frame, double meters) {
+    const double remains = std::exp(-double(frame.fog.density) * meters);
     return {.remains = remains, .added = (1 - remains) * glm::dvec3(frame.fog.color)};
 }
 

@@ -3,7 +3,9 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/weather.h"
 #include "passes/reference/brdf.h"
 #include "passes/reference/fragments.h"
 
@@ -12,7 +14,7 @@ namespace strata {
 /// A point of a surface with its material evaluated. View space.
 struct SurfacePoint {
     glm::dvec3 position{0};
-    glm::dvec3 normal{0, 0, -1};  ///< shading normal, unit, facing the eye; of hair: along the fibre, towards its tip
+    glm::dvec3 normal{0, 0, -1};  ///< shading normal, unit, facing the eye; of hair: along the fiber, towards its tip
     glm::dvec3 base_color{1};     ///< linear
     double alpha = 1;             ///< after base color, vertex color and texture
     double metallic = 0, roughness = 1, occlusion = 1;
@@ -31,15 +33,15 @@ Light sun_light(const Frame&);
 /// of sky and ground through the lobe of linearly transformed cosines.
 glm::dvec3 hemisphere_light(const Frame&, const SurfacePoint&);
 
-/// Metres of fog before a point in view space.
+/// Meters of fog before a point in view space.
 double fog_way(FogPath, const glm::dvec3& position);
 
-/// Remaining share and added radiance of so many metres of fog.
+/// Remaining share and added radiance of so many meters of fog.
 struct FogAt {
     double remains = 1;
     glm::dvec3 added{0};
 };
-FogAt fog_at(const Frame&, double metres);
+FogAt fog_at(const Frame&, double meters);
 
 /// World position to view space.
 glm::dvec3 to_view(const Frame&, const glm::dvec3& world);

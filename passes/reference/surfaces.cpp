@@ -3,6 +3,9 @@
 
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/particles.h"
+#include "capture_format/frame/texture.h"
 #include "passes/reference/textures.h"
 
 namespace strata {
@@ -14,7 +17,7 @@ constexpr double shortest_tangent = 1e-10;
 // What textures need to know of a point: its attributes, and those one pixel on in its 2x2 quad, as dFdxFine and dFdyFine see.
 struct Footprint {
     Attributes here, along_x, along_y;
-    double sign_x = 1, sign_y = 1;  ///< the neighbour is left or above: -1
+    double sign_x = 1, sign_y = 1;  ///< the neighbor is left or above: -1
 };
 
 glm::dvec4 texture_at(const Frame& frame, const TextureUse& use, const Footprint& footprint) {
@@ -79,8 +82,8 @@ glm::dvec3 shading_normal(const Frame& frame, const RasterPoint& point, const Co
     return point.front_facing ? normal : -normal;
 }
 
-// Where hair's fibre points: along the tangent, or out of the surface where there is none.
-glm::dvec3 fibre(const Frame& frame, const RasterPoint& point, const Footprint& footprint, const glm::dvec3& normal) {
+// Where hair's fiber points: along the tangent, or out of the surface where there is none.
+glm::dvec3 fiber(const Frame& frame, const RasterPoint& point, const Footprint& footprint, const glm::dvec3& normal) {
     const glm::dvec3 along = draw_space(frame, point.draw).linear * glm::dvec3(footprint.here.tangent);
     return glm::length(along) < shortest_tangent ? normal : glm::normalize(along);
 }
@@ -115,7 +118,7 @@ SurfacePoint surface_at(const Frame& frame, const RasterPoint& point, const Corn
     const glm::dvec4 rough_metal = texture_at(frame, material->metallic_roughness_texture, footprint);
     const double occlusion = texture_at(frame, material->occlusion_texture, footprint).x;
     surface.normal = shading_normal(frame, point, corners, footprint);
-    if (material->lighting_model == LightingModel::hair) surface.normal = fibre(frame, point, footprint, surface.normal);
+    if (material->lighting_model == LightingModel::hair) surface.normal = fiber(frame, point, footprint, surface.normal);
     surface.base_color = glm::dvec3(base);
     surface.alpha = base.w;
     if (has_metals(material->lighting_model)) surface.metallic = double(material->metallic) * rough_metal.z;

@@ -8,6 +8,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/texture.h"
+
 namespace strata {
 namespace {
 

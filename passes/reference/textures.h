@@ -5,9 +5,10 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
-
 namespace strata {
+
+struct Texture;     // capture_format/frame/texture.h
+struct TextureUse;  // capture_format/frame/material.h
 
 /// The piecewise curve of IEC 61966-2-1, display value to linear.
 double srgb_to_linear(double encoded);

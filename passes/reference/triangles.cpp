@@ -5,6 +5,9 @@
 
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
 #include "passes/reference/shade.h"
 
 namespace strata {

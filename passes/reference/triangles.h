@@ -6,9 +6,10 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
-
 namespace strata {
+
+struct Frame;     // capture_format/frame.h
+struct Material;  // capture_format/frame/material.h
 
 /// How the object space of a draw lies in view space. Exact in double however far the world's origin is.
 struct DrawSpace {

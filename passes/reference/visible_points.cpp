@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
 #include "passes/reference/mask_test.h"
 #include "passes/reference/raster.h"
 #include "passes/reference/surfaces.h"

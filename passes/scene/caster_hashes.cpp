@@ -2,6 +2,11 @@
 
 #include <map>
 
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/texture.h"
 #include "passes/scene/digest.h"
 
 namespace strata {

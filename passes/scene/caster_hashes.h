@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "capture_format/frame.h"
-
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
 
 /// Of each of these draws: its vertices, its place in the world, its material and what of the material's textures a light
 /// reflects. Reads every vertex and texel once, however many draws have them.

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
 #include "passes/scene/view_space.h"
 
 namespace strata {

@@ -6,9 +6,10 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
-
 namespace strata {
+
+struct Draw;   // capture_format/frame/draw.h
+struct Frame;  // capture_format/frame.h
 
 /// In object space; the origin alone where there are no points.
 struct BoundingBox {

@@ -1,6 +1,11 @@
 #include "passes/scene/draw_lists.h"
 
 #include <algorithm>
+#include <cstddef>
+
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
 
 namespace strata {
 

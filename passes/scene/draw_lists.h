@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "capture_format/frame.h"
-
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
 
 /// Indices into Frame::draws in submission order; emitter k has the index draws.size() + k.
 struct DrawLists {

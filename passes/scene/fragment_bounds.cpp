@@ -7,6 +7,9 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
 #include "passes/scene/view_space.h"
 
 namespace strata {
@@ -61,7 +64,7 @@ private:
     std::vector<std::int64_t> corners_;
 };
 
-/// The corner of a polygon in view space, and how far off a device may see it, in metres.
+/// The corner of a polygon in view space, and how far off a device may see it, in meters.
 struct Corner {
     glm::dvec3 position;
     double error;

@@ -7,8 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "capture_format/frame.h"
-#include "passes/graph/graph.h"
+#include "passes/graph/step.h"
 #include "passes/scene/draw_lists.h"
 
 namespace strata {

@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <set>
 
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/light_volume.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/light_types.h"
 #include "passes/scene/light_features.h"
-#include "passes/scene/light_list.h"
 #include "passes/scene/view_space.h"
 #include "passes/shaders/light_features.shared.h"
 
@@ -45,8 +51,7 @@ private:
 std::set<std::uint32_t> features_by_light(const Frame& frame, std::span<const Light> lights, const Frustum& frustum) {
     std::set<std::uint32_t> features;
     for (const Light& light : lights)
-        if (light.type == LightType::directional ||
-            frustum.meets({in_view_space(frame.view, light.position), double(light.range)}))
+        if (!has_range(light.type) || frustum.meets({in_view_space(frame.view, light.position), double(light.range)}))
             features.insert(light_features(light));
     return features;
 }
@@ -91,17 +96,11 @@ std::set<std::uint32_t> spectrum_parts(const Frame& frame, std::span<const Light
 
 }  // namespace
 
-std::uint32_t frame_spectrum(const Frame& frame) { return frame_spectrum(frame, light_list(frame), draw_bounds(frame)); }
-
 std::uint32_t frame_spectrum(const Frame& frame, std::span<const Light> lights, const DrawBounds& bounds) {
     const Frustum frustum(frame);
     std::uint32_t features = features_of_surfaces(frame, bounds, frustum) | features_of_volumes(frame);
     for (const std::uint32_t light : features_by_light(frame, lights, frustum)) features |= light;
     return features;
-}
-
-std::vector<std::uint32_t> possible_spectra(const Frame& frame, std::uint32_t features) {
-    return possible_spectra(frame, light_list(frame), draw_bounds(frame), features);
 }
 
 std::vector<std::uint32_t> possible_spectra(const Frame& frame, std::span<const Light> lights, const DrawBounds& bounds,

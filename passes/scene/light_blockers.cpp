@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/light_types.h"
 #include "passes/scene/view_space.h"
 
 namespace strata {
@@ -70,7 +74,7 @@ PortalPlace place_of(const Frame& frame, const Portal& portal, const BlockerPlac
 
 /// Homogeneous: a position, or with w = 0 the direction towards a directional light.
 glm::dvec4 place_of(const Frame& frame, const Light& light) {
-    if (light.type == LightType::directional) return {-(frame.view.to_view * glm::dvec3(light.direction)), 0};
+    if (!has_range(light.type)) return {-(frame.view.to_view * glm::dvec3(light.direction)), 0};
     return {in_view_space(frame.view, light.position), 1};
 }
 

@@ -4,10 +4,12 @@
 
 #include <vector>
 
-#include "capture_format/frame.h"
-#include "passes/shaders/scene.shared.h"
+#include "passes/shaders/scene/lights.shared.h"
 
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
+struct Light;  // capture_format/frame/light.h
 
 /// One record per blocker, in the order of Frame::blockers. Half extents are 1e-5 of the greater and 1e-5 m larger than recorded,
 /// so that a rounded position between two blockers that share an edge is inside one of them.

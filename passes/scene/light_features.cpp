@@ -2,37 +2,34 @@
 
 #include <algorithm>
 
-#include "passes/scene/light_list.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/light_types.h"
 #include "passes/shaders/light_features.shared.h"
 
 namespace strata {
 namespace {
 
 std::uint32_t of_type(LightType type) {
-    switch (type) {
-        case LightType::omni:
+    const LightTypeFacts& facts = facts_of(type);
+    if (facts.cone != LightCone::none) return facts.cone == LightCone::round ? feature_round_spot : feature_square_spot;
+    switch (facts.shape) {
+        case LightShape::point:
             return feature_omni;
-        case LightType::round_spot:
-            return feature_round_spot;
-        case LightType::square_spot:
-            return feature_square_spot;
-        case LightType::tube:
+        case LightShape::tube:
             return feature_tube;
-        case LightType::sphere:
-        case LightType::disc:
-        case LightType::rectangle:
+        case LightShape::sphere:
+        case LightShape::disc:
+        case LightShape::rectangle:
             return feature_area;
-        case LightType::directional:
+        case LightShape::parallel:
             break;
     }
     return 0;
 }
 
-bool shows_picture(const Light& light) {
-    const bool can =
-        light.type == LightType::round_spot || light.type == LightType::square_spot || light.type == LightType::rectangle;
-    return can && light.texture != no_index;
-}
+bool shows_picture(const Light& light) { return facts_of(light.type).shows_picture && light.texture != no_index; }
 
 }  // namespace
 
@@ -60,9 +57,9 @@ std::uint32_t light_features(const Light& light) {
     return bits;
 }
 
-std::uint32_t light_features(const Frame& frame) {
+std::uint32_t light_features(const Frame& frame, std::span<const Light> lights) {
     std::uint32_t bits = 0;
-    for (const Light& light : light_list(frame)) bits |= light_features(light);
+    for (const Light& light : lights) bits |= light_features(light);
     for (const Material& material : frame.materials) bits |= model_feature(material.lighting_model);
     return bits;
 }

@@ -6,13 +6,15 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/light_volume.h"
 
 namespace strata {
 
+struct Frame;  // capture_format/frame.h
+
 struct LightGrid {
     glm::dvec3 origin{0};  ///< world: the corner of cell (0, 0, 0)
-    double cell = 1;       ///< metres a side
+    double cell = 1;       ///< meters a side
     glm::uvec3 cells{1};
     VolumeOcclusion occlusion = VolumeOcclusion::none;
     std::uint32_t iterations = 0;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/light_types.h"
 #include "passes/scene/light_features.h"
 #include "passes/shaders/light_features.shared.h"
 
@@ -10,8 +13,8 @@ namespace strata {
 namespace {
 
 // Of one light, in the loops of passes/shaders: an emitter's outline of 16 corners, three times; a picture's two mips, each found
-// from the largest on. A branch that no lane takes costs a turn of each of its loops.
-constexpr std::uint64_t outline_turns = 3 * 17, picture_turns = 40, idle_turns = 6;
+// from the largest on. A branch that no lane takes costs an iteration of each of its loops.
+constexpr std::uint64_t outline_iterations = 3 * 17, picture_iterations = 40, idle_iterations = 6;
 
 Light as_light(const Sun& sun) {
     Light light{.name = "sun"};
@@ -24,9 +27,7 @@ Light as_light(const Sun& sun) {
 
 }  // namespace
 
-bool shines(const Light& light) {
-    return light.intensity != glm::vec3(0) && (light.type == LightType::directional || light.range > 0);
-}
+bool shines(const Light& light) { return light.intensity != glm::vec3(0) && (!has_range(light.type) || light.range > 0); }
 
 bool shines(const Sun& sun) { return sun.irradiance != glm::vec3(0); }
 
@@ -37,19 +38,19 @@ std::vector<Light> light_list(const Frame& frame) {
     return lights;
 }
 
-std::uint64_t light_turns(std::span<const Light> lights) {
+std::uint64_t light_iterations(std::span<const Light> lights) {
     std::uint32_t features = 0;
     for (const Light& light : lights) features |= light_features(light);
-    std::uint64_t turns = 0;
+    std::uint64_t iterations = 0;
     for (const Light& light : lights) {
         const bool is_area = (light_features(light) & (feature_tube | feature_area)) != 0;
         // Each blocker has a loop over its portals.
-        turns += 1 + 2 * light.blockers.size() + light.portals.size();
-        if (features & feature_clip_planes) turns += 1 + light.clip_planes.size();
-        if (features & (feature_tube | feature_area)) turns += is_area ? outline_turns : idle_turns;
-        if (features & feature_projected_texture) turns += light.texture != no_index ? picture_turns : idle_turns;
+        iterations += 1 + 2 * light.blockers.size() + light.portals.size();
+        if (features & feature_clip_planes) iterations += 1 + light.clip_planes.size();
+        if (features & (feature_tube | feature_area)) iterations += is_area ? outline_iterations : idle_iterations;
+        if (features & feature_projected_texture) iterations += light.texture != no_index ? picture_iterations : idle_iterations;
     }
-    return turns;
+    return iterations;
 }
 
 }  // namespace strata

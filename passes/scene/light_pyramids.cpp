@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/light_types.h"
+
 namespace strata {
 namespace {
 
@@ -15,7 +19,7 @@ LightPyramid spot_pyramid(const Frame& frame, const Light& light) {
     const double slope_u = slope(light.outer_angle);
     return {.along = along,
             .u = glm::normalize(u - along * glm::dot(u, along)),
-            .slopes = {slope_u, light.type == LightType::square_spot ? slope(light.inner_angle) : slope_u}};
+            .slopes = {slope_u, facts_of(light.type).cone == LightCone::square ? slope(light.inner_angle) : slope_u}};
 }
 
 LightPyramid face_pyramid(const Frame& frame, int face) {
@@ -29,7 +33,7 @@ LightPyramid face_pyramid(const Frame& frame, int face) {
 }  // namespace
 
 std::vector<LightPyramid> light_pyramids(const Frame& frame, const Light& light) {
-    if (light.type == LightType::round_spot || light.type == LightType::square_spot) return {spot_pyramid(frame, light)};
+    if (is_spot(light.type)) return {spot_pyramid(frame, light)};
     std::vector<LightPyramid> faces;
     for (int face = 0; face < 6; ++face) faces.push_back(face_pyramid(frame, face));
     return faces;

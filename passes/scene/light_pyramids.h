@@ -6,9 +6,10 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
-
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
+struct Light;  // capture_format/frame/light.h
 
 /// Radians. Half angle from which a perspective map is useless: tan 85 degrees is 11.4.
 inline constexpr double widest_half_angle = 85 * std::numbers::pi / 180;

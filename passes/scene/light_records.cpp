@@ -4,9 +4,11 @@
 #include <cmath>
 #include <iterator>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/light_types.h"
 #include "passes/scene/light_blockers.h"
 #include "passes/scene/light_features.h"
-#include "passes/scene/light_list.h"
 #include "passes/scene/view_space.h"
 
 namespace strata {
@@ -14,12 +16,11 @@ namespace {
 
 vec2 tangents(const Light& light) {
     const double u = std::tan(double(light.outer_angle));
-    const bool square = light.type == LightType::square_spot;
+    const bool square = facts_of(light.type).cone == LightCone::square;
     return {float(u), float(square ? std::tan(double(light.inner_angle)) : u)};
 }
 
 LightRecord record(const Frame& frame, const Light& light) {
-    const bool is_spot = light.type == LightType::round_spot || light.type == LightType::square_spot;
     return {
         .position = glm::vec3(in_view_space(frame.view, light.position)),
         .type = static_cast<uint>(light.type),
@@ -30,7 +31,7 @@ LightRecord record(const Frame& frame, const Light& light) {
         .axis_u = glm::vec3(frame.view.to_view * glm::dvec3(light.axis_u)),
         .cos_inner = float(std::cos(double(light.inner_angle))),
         .cos_outer = float(std::cos(double(light.outer_angle))),
-        .tan_half = is_spot ? tangents(light) : vec2(0),
+        .tan_half = is_spot(light.type) ? tangents(light) : vec2(0),
         .half_extent = light.half_extent,
         .texture = light.texture,
         .features = light_features(light),
@@ -62,11 +63,11 @@ void add_blockers(const LightBlockerRecords& found, LightRecords& made) {
 
 }  // namespace
 
-LightRecords light_records(const Frame& frame) {
+LightRecords light_records(const Frame& frame, std::span<const Light> lights) {
     LightRecords made;
     made.blockers = blocker_records(frame);
     made.portals = portal_records(frame);
-    for (const Light& light : light_list(frame)) {
+    for (const Light& light : lights) {
         made.lights.push_back(record(frame, light));
         add_clip_planes(frame, light, made);
         add_blockers(light_blocker_records(frame, light), made);

@@ -1,12 +1,15 @@
 // The lights of a frame as records of passes/shaders/scene.shared.h: what the device is given and what culling on the CPU reads.
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include "capture_format/frame.h"
-#include "passes/shaders/scene.shared.h"
+#include "passes/shaders/scene/lights.shared.h"
 
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
+struct Light;  // capture_format/frame/light.h
 
 /// Lights in the order of light_list(), without shadow maps: shadow and visibility_layer are no_index, shadow_slots 0. Their
 /// blockers, portals and clip planes lie one light's after the other's.
@@ -19,6 +22,7 @@ struct LightRecords {
     std::vector<ClipPlaneRecord> clip_planes;
 };
 
-LightRecords light_records(const Frame&);
+/// Of light_list().
+LightRecords light_records(const Frame&, std::span<const Light>);
 
 }  // namespace strata

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 #include <vector>
 
+#include "capture_format/frame/frame.h"
 #include "passes/scene/view_space.h"
 
 namespace strata {

@@ -1,7 +1,14 @@
 #include "passes/scene/material_uses.h"
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
+#include "capture_format/frame/texture.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
 #include "passes/scene/scene_facts.h"
-#include "passes/shaders/scene.shared.h"
+#include "passes/shaders/scene/materials.shared.h"
 #include "passes/shaders/uses.shared.h"
 
 namespace strata {
@@ -86,9 +93,9 @@ MaterialUses material_uses(const Frame& frame, const DrawLists& lists, Surfaces 
     return uses;
 }
 
-DrawPass& fix_materials(DrawPass& pass, const FrameImages& images, Surfaces surfaces) {
+DrawStep& fix_materials(DrawStep& builder, const FrameImages& images, Surfaces surfaces) {
     const MaterialUses uses = images.facts->material_uses(surfaces);
-    return pass.fixes("used_textures", uses.textures)
+    return builder.fixes("used_textures", uses.textures)
         .fixes("used_formats", uses.formats)
         .fixes("used_addresses", uses.addresses)
         .fixes("used_models", uses.models)
@@ -98,8 +105,8 @@ DrawPass& fix_materials(DrawPass& pass, const FrameImages& images, Surfaces surf
         .fixes("drawn", uses.drawn);
 }
 
-DrawPass& fix_positions(DrawPass& pass, const FrameImages& images, Surfaces surfaces) {
-    return pass.fixes("used_attributes", 0u).fixes("drawn", images.facts->material_uses(surfaces).drawn);
+DrawStep& fix_positions(DrawStep& builder, const FrameImages& images, Surfaces surfaces) {
+    return builder.fixes("used_attributes", 0u).fixes("drawn", images.facts->material_uses(surfaces).drawn);
 }
 
 }  // namespace strata

@@ -2,11 +2,13 @@
 // The rest is compiled away; a CPU driver executes every branch of a shader, taken or not, and reads buffers lane by lane.
 #pragma once
 
-#include "capture_format/frame.h"
-#include "passes/frame_images.h"
+#include "capture_format/frame/material.h"
 #include "passes/scene/draw_lists.h"
 
 namespace strata {
+
+class DrawStep;      // passes/graph/graph.h
+struct FrameImages;  // passes/frame_images.h
 
 enum class Surfaces { opaque, transparent };
 
@@ -24,9 +26,9 @@ struct MaterialUses {
 MaterialUses material_uses(const Frame&, const DrawLists&, Surfaces);
 
 /// Fixes the constants of material.glsl and vertex.glsl in a step whose shaders include both.
-DrawPass& fix_materials(DrawPass&, const FrameImages&, Surfaces);
+DrawStep& fix_materials(DrawStep&, const FrameImages&, Surfaces);
 
 /// Fixes the constants of vertex.glsl in a step whose fragment shader asks for nothing but where a surface is.
-DrawPass& fix_positions(DrawPass&, const FrameImages&, Surfaces);
+DrawStep& fix_positions(DrawStep&, const FrameImages&, Surfaces);
 
 }  // namespace strata

@@ -6,6 +6,9 @@
 #include <span>
 #include <tuple>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
 #include "passes/scene/draw_lists.h"
 #include "passes/scene/view_space.h"
 

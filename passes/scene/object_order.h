@@ -5,9 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "capture_format/frame.h"
-
 namespace strata {
+
+struct Emitter;  // capture_format/frame/particles.h
+struct Frame;    // capture_format/frame.h
 
 /// Draws with a transparent material and emitters with particles (as draws.size() + emitter): lower layers first, then lower
 /// sort_priority, then, in the world, farther centers, then earlier submission. The center is that of the mesh's box,

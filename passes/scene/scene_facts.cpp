@@ -1,5 +1,6 @@
 #include "passes/scene/scene_facts.h"
 
+#include "capture_format/frame/light.h"
 #include "passes/scene/caster_hashes.h"
 #include "passes/scene/fragment_bounds.h"
 #include "passes/scene/frame_spectrum.h"
@@ -56,7 +57,7 @@ const MaterialUses& SceneFacts::material_uses(Surfaces surfaces) const {
 }
 
 std::uint32_t SceneFacts::light_features() const {
-    return light_features_.get([&] { return strata::light_features(*frame_); });
+    return light_features_.get([&] { return strata::light_features(*frame_, lights()); });
 }
 
 std::uint32_t SceneFacts::spectrum() const {
@@ -69,7 +70,7 @@ const std::vector<std::uint32_t>& SceneFacts::possible_spectra(std::uint32_t fea
     return found->second;
 }
 
-std::uint64_t SceneFacts::light_turns() const { return strata::light_turns(lights()); }
+std::uint64_t SceneFacts::light_iterations() const { return strata::light_iterations(lights()); }
 
 std::uint32_t SceneFacts::highest_interface_layer() const {
     return highest_interface_layer_.get([&] { return strata::highest_interface_layer(*frame_, lists()); });

@@ -8,9 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/light.h"
 #include "capture_format/frame_features.h"
-#include "passes/graph/graph.h"
+#include "passes/depth_range.h"
+#include "passes/graph/step.h"
 #include "passes/scene/draw_bounds.h"
 #include "passes/scene/draw_lists.h"
 #include "passes/scene/fragment_bounds.h"
@@ -59,8 +60,8 @@ public:
     /// What lights and materials need (light_features.h), and what of it the view may show (frame_spectrum.h).
     std::uint32_t light_features() const;
     std::uint32_t spectrum() const;
-    /// The most turns that a loop over all lights with their blockers takes (light_list.h).
-    std::uint64_t light_turns() const;
+    /// The most iterations that a loop over all lights with their blockers takes (light_list.h).
+    std::uint64_t light_iterations() const;
     /// Every spectrum that a tile may have, of the given features alone (frame_spectrum.h).
     const std::vector<std::uint32_t>& possible_spectra(std::uint32_t features) const;
     /// Of everything transparent; 0 where nothing is in an interface layer.

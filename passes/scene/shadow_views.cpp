@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
-#include "passes/scene/draw_lists.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/light_types.h"
 #include "passes/scene/light_pyramids.h"
 #include "passes/scene/map_places.h"
+#include "passes/scene/scene_facts.h"
 #include "passes/scene/view_space.h"
 
 namespace strata {
@@ -100,7 +104,7 @@ ShadowView local_view(const Frame& frame, const Light& light, const LightPyramid
 }
 
 bool has_map(const Light& light) {
-    const bool can = light.type == LightType::round_spot || light.type == LightType::square_spot || has_faces(light);
+    const bool can = facts_of(light.type).maps != LightMaps::none;
     return can && light.shadow.casts && light.range > 0 && light.intensity != glm::vec3(0);
 }
 
@@ -121,7 +125,7 @@ std::vector<double> cascade_ends(double near, double far, std::uint32_t count, d
     return ends;
 }
 
-bool has_faces(const Light& light) { return light.type == LightType::omni || light.type == LightType::sphere; }
+bool has_faces(const Light& light) { return facts_of(light.type).maps == LightMaps::six; }
 
 std::uint32_t cube_face(const glm::dvec3& direction) {
     const glm::dvec3 size = glm::abs(direction);
@@ -130,11 +134,7 @@ std::uint32_t cube_face(const glm::dvec3& direction) {
 }
 
 std::vector<ShadowView> shadow_views(const Frame& frame, Allocation allocation) {
-    const std::vector<Light> lights = light_list(frame);
-    const DrawBounds bounds = draw_bounds(frame);
-    std::vector<BoundingSphere> casters;
-    for (const std::uint32_t draw : draw_lists(frame).casters) casters.push_back(bounds.spheres[draw]);
-    return shadow_views(frame, {lights, casters}, allocation);
+    return SceneFacts(frame).shadow_views(allocation);
 }
 
 std::vector<ShadowView> shadow_views(const Frame& frame, const LitCasters& scene, Allocation allocation) {

@@ -8,7 +8,6 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
 #include "passes/scene/draw_bounds.h"
 #include "passes/scene/light_list.h"
 
@@ -19,11 +18,11 @@ struct ShadowView {
     glm::dmat4 view_to_map{1};
     std::uint32_t light = 0;  ///< in the order of light_list()
     std::uint32_t size = 0;   ///< texels per edge
-    double bias = 0;          ///< metres towards the light along its rays
+    double bias = 0;          ///< meters towards the light along its rays
     double range_begin = 0;   ///< view depth from which a cascade serves ...
     double range_end = 0;     ///< ... and until which; its last tenth blends into the next cascade, the last one's into lit
-    double texel = 0;         ///< edge of a texel in metres: anywhere for the sun, else at one metre along the axis
-    double source_width = 0;  ///< of the light, metres: twice source_radius; of the sun per metre: 2 tan(angular_radius)
+    double texel = 0;         ///< edge of a texel in meters: anywhere for the sun, else at one meter along the axis
+    double source_width = 0;  ///< of the light, meters: twice source_radius; of the sun per meter: 2 tan(angular_radius)
     bool soft = false;        ///< wants penumbrae
     glm::uvec2 offset{0};     ///< of its upper left texel in its layer
     std::uint32_t layer = 0;  ///< of shadow_maps
@@ -36,7 +35,7 @@ enum class Allocation : std::uint32_t { own, need };
 /// Of the lights that can have maps (the sun, round and square spots, omni lights and spheres), shine and cast. A sphere's map is
 /// that of its center. Tubes, discs, rectangles and further directional lights cast no mapped shadow.
 std::vector<ShadowView> shadow_views(const Frame&, Allocation = Allocation::own);
-/// The same where the lights and the spheres around the casters are known: no vertex is walked.
+/// The same where the lights and the spheres around the casters are known, as SceneFacts does: no vertex is walked.
 struct LitCasters {
     std::span<const Light> lights;  ///< light_list()
     std::span<const BoundingSphere> casters;

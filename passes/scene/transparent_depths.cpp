@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
 #include "passes/scene/view_space.h"
 #include "passes/shaders/ordering.shared.h"
 

@@ -3,9 +3,9 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
-
 namespace strata {
+
+struct View;  // capture_format/view.h
 
 inline glm::dvec3 in_view_space(const View& view, const glm::dvec3& world) { return view.to_view * (world - view.origin); }
 

@@ -11,13 +11,13 @@
 uint low_bits(uint n) { return n >= 32u ? 0xffffffffu : (1u << n) - 1u; }
 
 vec3 off_surface(vec3 position, vec3 normal) {
-    precise vec3 result = position + normal * max(least_surface_offset, surface_offset_per_metre * position.z);
+    precise vec3 result = position + normal * max(least_surface_offset, surface_offset_per_meter * position.z);
     return result;
 }
 
 // Homogeneous: a place, or with w = 0 the direction towards the light.
 vec4 light_point(LightRecord light) {
-    return light.type == light_directional ? vec4(-light.direction, 0.0) : vec4(light.position, 1.0);
+    return light_has_range(light.type) ? vec4(light.position, 1.0) : vec4(-light.direction, 0.0);
 }
 
 float precise_dot(vec3 a, vec3 b) {

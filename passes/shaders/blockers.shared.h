@@ -1,4 +1,4 @@
-// Thresholds of light blockers (docs/algorithms/lighting.md 2.2 and 2.3), metres unless said otherwise.
+// Thresholds of light blockers (docs/algorithms/lighting.md 2.2 and 2.3), meters unless said otherwise.
 // passes/reference/blockers.cpp has its own, and passes/scene/light_blockers.cpp has those of lights in double.
 #ifndef PASSES_SHADERS_BLOCKERS_SHARED_H
 #define PASSES_SHADERS_BLOCKERS_SHARED_H
@@ -7,9 +7,9 @@
 namespace strata {
 #endif
 
-// How far a surface is asked about along its normal: so far, or so much per metre of view depth.
+// How far a surface is asked about along its normal: so far, or so much per meter of view depth.
 const float least_surface_offset = 0.01f;
-const float surface_offset_per_metre = 5e-4f;
+const float surface_offset_per_meter = 5e-4f;
 // How far a point must lie behind a blocker's plane to be in its shadow: half of that, so that a face in the plane is safely on
 // its own side.
 const float point_behind_blocker = 5e-3f;

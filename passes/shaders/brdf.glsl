@@ -1,4 +1,4 @@
-// Reflectance of the lighting models (docs/algorithms/lighting.md 0.5): Lambert; Burley 2012, plain and renormalised by Lagarde &
+// Reflectance of the lighting models (docs/algorithms/lighting.md 0.5): Lambert; Burley 2012, plain and renormalized by Lagarde &
 // de Rousiers (Frostbite, 2014); GGX of Walter et al. 2007 with the height-correlated visibility of Heitz 2014, and with the
 // light of many bounces after Turquin 2019. Cloth, skin and hair are in special_brdf.glsl. Any shader stage.
 // What one unit of irradiance from l adds to the radiance towards v is brdf() * brdf_cosine().

@@ -12,7 +12,7 @@ layout(location = 5) out vec4 out_emissive;  // w: depth offset towards the eye
 layout(location = 6) flat out uint out_draw;
 layout(location = 7) flat out uint out_triangle;  // its number in the draw where numbered_draw.vert draws; else its first vertex
 
-// 1: the fragments read the material of their draw from here (passes/transparency/event_material.glsl), once per vertex.
+// 1: the fragments read the material of their draw from here (passes/transparency/fragment_material.glsl), once per vertex.
 layout(constant_id = 40) const uint hands_on_material = 0u;
 layout(location = 8) flat out vec4 out_base_color;
 layout(location = 9) flat out uvec4 out_modes;         // alpha_mode, lighting_model, double_sided; the draw's layer

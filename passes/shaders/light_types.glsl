@@ -2,17 +2,8 @@
 #ifndef PASSES_SHADERS_LIGHT_TYPES_GLSL
 #define PASSES_SHADERS_LIGHT_TYPES_GLSL
 #include "passes/shaders/light_features.shared.h"
+#include "passes/shaders/light_types.shared.h"
 #include "passes/shaders/scene.glsl"
-
-// LightType of capture_format/frame.h.
-const uint light_omni = 0u;
-const uint light_round_spot = 1u;
-const uint light_square_spot = 2u;
-const uint light_tube = 3u;
-const uint light_sphere = 4u;
-const uint light_disc = 5u;
-const uint light_rectangle = 6u;
-const uint light_directional = 7u;
 
 bool is_asked(uint features, uint feature) { return (features & feature) != 0u; }
 

@@ -7,7 +7,7 @@
 #include "passes/shaders/light_types.glsl"
 #include "passes/shaders/projected_texture.glsl"
 
-// Metres: nearer than this a point light grows no brighter.
+// Meters: nearer than this a point light grows no brighter.
 const float nearest_light = 0.01;
 // Share of a square spot's half width over which its edge fades.
 const float square_feather = 0.1;
@@ -30,8 +30,8 @@ float square_cone(LightRecord light, vec3 offset) {
 
 // What a spot leaves around its axis.
 float cone_share(LightRecord light, MaterialPoint m, vec3 to_light, uint features) {
-    if (is_asked(features, feature_square_spot) && light.type == light_square_spot) return square_cone(light, m.position - light.position);
-    if (is_asked(features, feature_round_spot) && light.type == light_round_spot) return spot_cone(light, to_light);
+    if (is_asked(features, feature_square_spot) && light_has_square_cone(light.type)) return square_cone(light, m.position - light.position);
+    if (is_asked(features, feature_round_spot) && light_has_round_cone(light.type)) return spot_cone(light, to_light);
     return 1.0;
 }
 
@@ -41,7 +41,7 @@ struct Incident {
 };
 
 Incident incident_light(LightRecord light, MaterialPoint m, uint features) {
-    if (light.type == light_directional) return Incident(-light.direction, light.intensity);
+    if (!light_has_range(light.type)) return Incident(-light.direction, light.intensity);
     const vec3 offset = light.position - m.position;
     const float squared = dot(offset, offset);
     const float d = sqrt(squared);
@@ -50,14 +50,14 @@ Incident incident_light(LightRecord light, MaterialPoint m, uint features) {
     const float cone = cone_share(light, m, to_light, features);
     const float fall_off = range_window(d, light.range) * cone / max(squared, nearest_light * nearest_light);
     vec3 irradiance = light.intensity * fall_off;
-    const bool is_spot = light.type == light_round_spot || light.type == light_square_spot;
+    const bool is_spot = light_is_spot(light.type);
     if (is_asked(features, feature_projected_texture) && light.texture != no_index && is_spot && cone > 0.0)
         irradiance *= projected_picture(light, m, -offset);
     return Incident(to_light, irradiance);
 }
 
 bool is_area_light(LightRecord light, uint features) {
-    return is_asked(features, feature_tube | feature_area) && light.type >= light_tube && light.type <= light_rectangle;
+    return is_asked(features, feature_tube | feature_area) && light_has_area(light.type);
 }
 
 // L_o towards the eye, which is the origin. `features` are bits of light_features.shared.h, a constant of the shader: what it lacks

@@ -1,4 +1,4 @@
-// How bright linear light of the primaries of BT.709 is: one number where a method keeps no color
+// How bright linear light of the primaries of BT.709 is: one number where a technique keeps no color
 // (docs/algorithms/transparency.md 0.3).
 #ifndef PASSES_SHADERS_LUMINANCE_GLSL
 #define PASSES_SHADERS_LUMINANCE_GLSL

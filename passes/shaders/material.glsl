@@ -74,8 +74,8 @@ vec3 mapped_normal(uint draw, MaterialRecord material, vec3 n, vec4 tangent, vec
     return normalize(t * local.x + cross(n, t) * (hand * local.y) + n * local.z);
 }
 
-// Hair's tangent runs along its fibres; fibres without one stick out.
-vec3 fibre(vec3 normal, vec4 tangent) { return dot(tangent.xyz, tangent.xyz) < 1e-20 ? normal : normalize(tangent.xyz); }
+// Hair's tangent runs along its fibers; fibers without one stick out.
+vec3 fiber(vec3 normal, vec4 tangent) { return dot(tangent.xyz, tangent.xyz) < 1e-20 ? normal : normalize(tangent.xyz); }
 
 // The varyings of draw.vert, as they are, but for uv.
 struct Varyings {
@@ -93,7 +93,7 @@ MaterialPoint material_point(uint draw, MaterialRecord material, MaterialTexels 
     MaterialPoint m;
     m.position = v.position;
     m.normal = v.front_facing ? facing : -facing;
-    if (material.lighting_model == model_hair) m.normal = fibre(m.normal, v.tangent);
+    if (material.lighting_model == model_hair) m.normal = fiber(m.normal, v.tangent);
     m.base_color = base.rgb;
     m.alpha = base.a;
     m.metallic = has_metals(material.lighting_model) ? material.metallic * surface.b : 0.0;

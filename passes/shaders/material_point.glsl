@@ -4,8 +4,8 @@
 #include "passes/shaders/scene.shared.h"
 
 struct MaterialPoint {
-    vec3 position;      // view space, metres
-    vec3 normal;        // unit, normal mapped, on the eye's side of the triangle; of hair: along the fibre, towards its tip
+    vec3 position;      // view space, meters
+    vec3 normal;        // unit, normal mapped, on the eye's side of the triangle; of hair: along the fiber, towards its tip
     vec3 base_color;    // linear; vertex color and texture are in it
     float alpha;        // base color, vertex color and texture
     float metallic;
@@ -23,8 +23,8 @@ bool has_metals(uint lighting_model) {
            lighting_model == model_multiscatter_ggx;
 }
 
-// The normal, for whoever needs one whatever the lighting model. Of hair it is the one of the fibre that faces the eye, or towards
-// the eye where a fibre is seen end-on.
+// The normal, for whoever needs one whatever the lighting model. Of hair it is the one of the fiber that faces the eye, or towards
+// the eye where a fiber is seen end-on.
 vec3 facing_normal(uint lighting_model, vec3 normal, vec3 position) {
     if (lighting_model != model_hair) return normal;
     const vec3 to_eye = normalize(-position);

@@ -10,7 +10,7 @@ layout(set = 0, binding = 0, scalar) writeonly buffer Done { uint done[]; };
 
 void main() {
     vec4 a = vec4(0), b = vec4(0);
-    for (uint turn = 0u; turn < loop.turns; ++turn) {
+    for (uint turn = 0u; turn < loop.iterations; ++turn) {
         a = fma(a, vec4(loop.factor), vec4(loop.summand));
         b = fma(b, vec4(loop.factor), vec4(loop.summand));
         a = fma(a, vec4(loop.factor), vec4(loop.summand));

@@ -11,7 +11,7 @@ const uint multiply_add_threads = 64u;  // of a group
 // Both are 1, so that a chain counts what was done; a compiler must not know it.
 struct MultiplyAdd {
     float factor, summand;
-    uint turns;
+    uint iterations;
 };
 
 #ifdef __cplusplus

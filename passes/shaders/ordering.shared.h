@@ -10,7 +10,7 @@ inline float layer_depth(float near, uint layer);
 // A capture's layers are 0, the world, to this one, the nearest.
 const uint last_interface_layer = 255u;
 
-// The depth at which an interface layer is ordered, in metres: in front of the near plane, the higher the nearer. Depth is tested
+// The depth at which an interface layer is ordered, in meters: in front of the near plane, the higher the nearer. Depth is tested
 // where the surface is.
 float layer_depth(float near, uint layer) { return near / (1.0f + float(layer)); }
 

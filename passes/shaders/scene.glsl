@@ -30,7 +30,7 @@ layout(set = 1, binding = 18, scalar) readonly buffer ParticleBottoms { vec4 par
 layout(set = 1, binding = 19, scalar) readonly buffer ParticleTops { vec4 particle_tops[]; };
 layout(set = 1, binding = 20, scalar) readonly buffer ParticleDepths { float particle_depths[]; };
 layout(set = 1, binding = 21, scalar) readonly buffer ParticleUvs { vec4 particle_uvs[]; };      // origin and size
-layout(set = 1, binding = 22, scalar) readonly buffer ParticleGlows { vec4 particle_glows[]; };  // w: metres towards the eye
+layout(set = 1, binding = 22, scalar) readonly buffer ParticleGlows { vec4 particle_glows[]; };  // w: meters towards the eye
 // Of the frame, in the order of their blockers: each a hole in the blocker that it names.
 layout(set = 1, binding = 23, scalar) readonly buffer Portals { BlockerPortalRecord portals[]; };
 

@@ -97,12 +97,12 @@ vec2 first_direction(vec3 position) {
     return vec2(cos(turn), sin(turn));
 }
 
-// The penumbra is w (zR - zB) / zB wide on the receiver, where a texel t has t zR metres. With z = near / depth that is
+// The penumbra is w (zR - zB) / zB wide on the receiver, where a texel t has t zR meters. With z = near / depth that is
 // w (depthB - depthR) / (near t) texels; of the sun, whose depth is in units of its range, w (depthB - depthR) range / t.
 float penumbra_per_depth(ShadowRecord map, bool sun) {
     const float near = map.view_to_map[3].z;
-    const float per_metre = length(vec3(map.view_to_map[0].z, map.view_to_map[1].z, map.view_to_map[2].z));
-    return map.source_width / ((sun ? per_metre : near) * map.texel);
+    const float per_meter = length(vec3(map.view_to_map[0].z, map.view_to_map[1].z, map.view_to_map[2].z));
+    return map.source_width / ((sun ? per_meter : near) * map.texel);
 }
 
 // Radius in texels of the disc that the source is, seen from the receiver, where what blocks it has this depth.
@@ -163,7 +163,7 @@ vec2 plane_gradient(ShadowRecord map, vec4 at, vec3 normal) {
 // plane that the ray meets squarely still gains if the axis does not. A soft kernel follows the plane, tap by tap.
 float one_map(LightRecord light, uint record, vec3 position, vec3 normal, bool soft) {
     const ShadowRecord map = shadows[record];
-    const bool sun = light.type == light_directional;
+    const bool sun = !light_has_range(light.type);
     const vec3 offset = light.position - position;
     const vec3 to_light = sun ? -light.direction : normalize(offset);
     const float cosine = clamp(dot(normal, to_light), 1e-3, 1.0);
@@ -201,7 +201,7 @@ float filtered_shadow(LightRecord light, vec3 position, vec3 normal, uint featur
     if ((features & feature_shadows) == 0u || light.shadow == no_index) return 1.0;
     const bool soft = (features & light.features & feature_soft_shadows) != 0u;
     const uint first = light.shadow + shadow_allocation * view.shadow_count;
-    if (light.type != light_directional) {
+    if (light_has_range(light.type)) {
         const uint face = light.shadow_slots > 1u ? face_of(view.to_world * (position - light.position)) : 0u;
         return one_map(light, first + face, position, normal, soft);
     }

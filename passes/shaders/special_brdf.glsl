@@ -16,7 +16,7 @@ const float smallest_cosine = 1e-4;
 const vec3 skin_wrap = 0.4 / 3.67 * vec3(3.67, 1.37, 0.68);
 const float skin_f0 = 0.028;  // an index of refraction of 1.4
 const float hair_f0 = 0.0465;  // 1.55
-// Of the light that enters a fibre this share comes back after a reflection inside, the rest from fibre to fibre.
+// Of the light that enters a fiber this share comes back after a reflection inside, the rest from fiber to fiber.
 const float hair_inside = 0.25;
 
 // The bit that shading a model needs, 0 where every shader knows it.
@@ -72,7 +72,7 @@ vec2 ggx_albedo(float n_v, float roughness) {
 
 // Fuzz over Lambert. The distribution of Estevez & Kulla (Production Friendly Microfacet Sheen BRDF, SIGGRAPH 2017) with the
 // visibility of Neubelt & Pettineo (Crafting a Next-Gen Material Pipeline for The Order: 1886, 2013), which for alpha below 0.25
-// would reflect more than it gets: 1.41 at 0.09. Single fibres tint less than the cloth: the square root of its color, our choice.
+// would reflect more than it gets: 1.41 at 0.09. Single fibers tint less than the cloth: the square root of its color, our choice.
 // The fuzz takes from the layer below what it reflects, on the way in and on the way out.
 vec3 cloth(MaterialPoint m, Directions d) {
     const float lobe = mix(0.25, 1.0, m.roughness);
@@ -107,20 +107,20 @@ vec3 skin(MaterialPoint m, Directions d) {
 
 float gauss(float x, float width) { return exp(-0.5 * x * x / (width * width)) / (width * sqrt(2.0 * pi)); }
 
-// Where a direction points around the fibre. The cosine of half the angle phi between two of them is half the length of their sum,
+// Where a direction points around the fiber. The cosine of half the angle phi between two of them is half the length of their sum,
 // also where phi is nearly pi, and cos(phi) all but -1.
-vec3 across_fibre(vec3 direction, vec3 along) {
+vec3 across_fiber(vec3 direction, vec3 along) {
     const vec3 across = direction - along * dot(direction, along);
     return across / max(length(across), smallest_cosine);
 }
 
 // Kajiya & Kay's cylinder (1989) with the two highlights of Marschner et al. 2003 as Scheuermann (Practical Real-Time Hair
 // Rendering and Shading, 2004) draws them, the white one towards the tip and the colored one towards the root, their shape from
-// Karis, Tafuri (Physically Based Hair Shading in Unreal, 2016). m.normal is the fibre, towards its tip. Both lobes are
-// normalised along the fibre (in sines) and around it (cos(phi / 2) / 4), the cylinder by pi^2.
+// Karis, Tafuri (Physically Based Hair Shading in Unreal, 2016). m.normal is the fiber, towards its tip. Both lobes are
+// normalized along the fiber (in sines) and around it (cos(phi / 2) / 4), the cylinder by pi^2.
 vec3 hair(MaterialPoint m, Directions d) {
     const float s_l = dot(d.normal, d.l), s_v = dot(d.normal, d.v);
-    const float around = 0.125 * length(across_fibre(d.l, d.normal) + across_fibre(d.v, d.normal));
+    const float around = 0.125 * length(across_fiber(d.l, d.normal) + across_fiber(d.v, d.normal));
     const float width = max(m.roughness * m.roughness, 0.01);
     const float white = gauss(s_l + s_v + 0.07, width) * around;
     const float colored = gauss(s_l + s_v - 0.14, 2.0 * width) * around;

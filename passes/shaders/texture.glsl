@@ -3,21 +3,12 @@
 #define PASSES_SHADERS_TEXTURE_GLSL
 #include "passes/shaders/scene.glsl"
 #include "passes/shaders/srgb.glsl"
+#include "passes/shaders/textures.shared.h"
 
 // The formats of the textures that are read (passes/scene/material_uses.h); the rest is compiled away.
 layout(constant_id = 21) const uint used_formats = 0xffffffffu;
 // Their address modes, as bits 1 << mode of one direction.
 layout(constant_id = 23) const uint used_addresses = 0xffffffffu;
-
-// TextureFormat and AddressMode of capture_format/frame.h.
-const uint texture_rgba8_unorm = 0u;
-const uint texture_rgba8_srgb = 1u;
-const uint texture_rgba16f = 2u;
-const uint texture_rgba32f = 3u;
-const uint address_repeat = 0u;
-const uint address_clamp = 1u;
-// A texture's record has the modes along u (the lowest two bits) and v.
-const uint address_clamp_both = 5u;
 
 bool has_format(uint format) { return (used_formats & (1u << format)) != 0u; }
 

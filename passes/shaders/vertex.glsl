@@ -12,7 +12,7 @@ struct Vertex {
     vec2 uv1;
     vec4 color;
     vec3 emissive;
-    float depth_offset;  // metres towards the eye
+    float depth_offset;  // meters towards the eye
 };
 
 // Corners go around the quad from its lower left one.

@@ -6,6 +6,9 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
 #include "passes/gbuffer/coverage/mask_tests.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/pcg.h"
@@ -17,7 +20,7 @@ namespace {
 
 // Texels by which the ends of a side may move where positions snap to 1/256.
 constexpr double snap = 1.5 / 256;
-// Of the device's depth: positions up to 100 m away as floats, over a depth range of as many metres.
+// Of the device's depth: positions up to 100 m away as floats, over a depth range of as many meters.
 constexpr double depth_rounding = 2e-6;
 
 /// What a texel holds so far.

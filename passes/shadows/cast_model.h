@@ -5,8 +5,13 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
 #include "passes/reference/image.h"
+
+namespace strata {
+
+struct Frame;  // capture_format/frame.h
+
+}  // namespace strata
 
 namespace strata::shadows {
 
@@ -18,7 +23,7 @@ struct CasterMap {
 };
 
 /// size x size texels: in x the depth of the nearest caster, 0 where there is none, in y how far the device's may be from it.
-/// `mask` is a method of passes/gbuffer/coverage/coverage.shared.h. Undecided: a triangle's side
+/// `mask` is a mode of passes/gbuffer/coverage/coverage.shared.h. Undecided: a triangle's side
 /// within 1.5/256 texel, over which snapped positions may move the middle, and an alpha that a float may put on the other side of
 /// its cutoff.
 ReferenceImage cast_model(const Frame&, const CasterMap&, std::uint32_t mask);

@@ -5,6 +5,7 @@
 
 #include "passes/choice_names.h"
 #include "passes/edges/plain_pixels.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/scene/map_places.h"
 #include "passes/scene/scene_facts.h"
@@ -62,14 +63,14 @@ void filter_shadow_maps(Graph& graph, FrameImages& frame, const std::string& sha
     if (frame.shadow_maps) filter_step(graph, frame, shader, frame.visibility);
 }
 
-ComputePass filter_step(Graph& graph, const FrameImages& frame, const std::string& shader, Image& visibility) {
+ComputeStep filter_step(Graph& graph, const FrameImages& frame, const std::string& shader, Image& visibility) {
     const auto shadowed = static_cast<std::uint32_t>(shadowed_lights(frame.facts->shadow_views(Allocation::own)).size());
     const Shape maps = graph.shape(frame.shadow_maps);
     const std::uint64_t texels = std::uint64_t(maps.layers) * maps.extent.width * maps.extent.height;
     visibility = graph.create("visibility", {.extent = frame.extent, .format = Format::r16f, .layers = shadowed * frame.samples});
-    ComputePass pass = graph.compute(shader);
-    fix_shadow_filter(pass, frame.shadow_filter);
-    return sample_edges(sample_gbuffer(pass, frame), frame)
+    ComputeStep builder = graph.compute(shader);
+    fix_shadow_filter(builder, frame.shadow_filter);
+    return sample_edges(sample_gbuffer(builder, frame), frame)
         .samples("shadow_maps", frame.shadow_maps)
         .samples("depth_layers", frame.depth_layers)
         .stores("visibility", visibility)
@@ -77,8 +78,8 @@ ComputePass filter_step(Graph& graph, const FrameImages& frame, const std::strin
         .over({frame.extent.width, frame.extent.height, frame.samples});
 }
 
-ComputePass& fix_shadow_filter(ComputePass& pass, const ShadowFilter& filter) {
-    return pass.fixes("shadow_kernel", std::int32_t(2) << filter.kernel)
+ComputeStep& fix_shadow_filter(ComputeStep& builder, const ShadowFilter& filter) {
+    return builder.fixes("shadow_kernel", std::int32_t(2) << filter.kernel)
         .fixes("shadow_slope_limit", filter.slope_limit)
         .fixes("shadow_allocation", filter.allocation)
         .fixes("shadow_search_taps", static_cast<std::int32_t>(filter.search_taps))

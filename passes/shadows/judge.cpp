@@ -5,9 +5,12 @@
 #include <cmath>
 #include <vector>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/light_types.h"
 #include "passes/reference/difference.h"
 #include "passes/reference/light_sets.h"
 #include "passes/shadows/receivers.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 
@@ -17,9 +20,9 @@ namespace {
 bool matters(const Frame& frame, const Light& light, const Receiver& receiver) {
     const Towards to = towards(frame, light, receiver.position);
     if (receiver.normal != glm::dvec3(0) && glm::dot(receiver.normal, to.direction) <= 0) return false;
-    if (light.type == LightType::directional) return true;
+    if (!has_range(light.type)) return true;
     if (to.distance >= double(light.range)) return false;
-    if (light.type != LightType::round_spot) return true;
+    if (facts_of(light.type).cone != LightCone::round) return true;
     const glm::dvec3 axis = frame.view.to_view * glm::normalize(glm::dvec3(light.direction));
     return glm::dot(-to.direction, axis) > std::cos(double(light.outer_angle));
 }
@@ -44,7 +47,7 @@ struct Sums {
 
 }  // namespace
 
-std::vector<Figure> shadows_judge(const ImageSet& result, const ImageSet& truth, const StageInput& input) {
+std::vector<Metric> shadows_judge(const ImageSet& result, const ImageSet& truth, const StageInput& input) {
     const auto got = result.find("visibility"), wanted = truth.find("visibility");
     Sums sums;
     if (got != result.end() && wanted != truth.end()) {

@@ -3,10 +3,12 @@
 
 #include <vector>
 
-#include "passes/stages.h"
+#include "passes/figure.h"
 
 namespace strata {
 
-std::vector<Figure> shadows_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
+struct StageInput;  // passes/stage_input.h
+
+std::vector<Metric> shadows_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
 
 }  // namespace strata

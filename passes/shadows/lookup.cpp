@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/edges/plain_pixels.h"
 #include "passes/reference/light_sets.h"
 #include "passes/reference/shade.h"
+#include "passes/stage_input.h"
 
 namespace strata::shadows {
 
@@ -16,13 +19,13 @@ Towards to_light(const LookupScene& scene, const ShadowView& view, const Receive
     return towards(scene.frame, scene.lights[view.light], receiver.position);
 }
 
-// Float positions are good to a few 2^-23 of their size; the sun's map depth divides metres by the depth range, a spot's is
+// Float positions are good to a few 2^-23 of their size; the sun's map depth divides meters by the depth range, a spot's is
 // near / w and moves in proportion.
 double doubt(const ShadowView& view, const Receiver& receiver, const glm::dvec4& at, double distance) {
     const glm::dvec4 depth_row = glm::transpose(view.view_to_map)[2];
-    const double metres = 2e-6 * (1 + glm::length(receiver.position) + (std::isinf(distance) ? 0 : distance));
+    const double meters = 2e-6 * (1 + glm::length(receiver.position) + (std::isinf(distance) ? 0 : distance));
     const bool perspective = glm::dvec3(depth_row) == glm::dvec3(0);
-    return perspective ? metres * at.z / (at.w * at.w) : metres * glm::length(glm::dvec3(depth_row)) + 1e-6;
+    return perspective ? meters * at.z / (at.w * at.w) : meters * glm::length(glm::dvec3(depth_row)) + 1e-6;
 }
 
 // The face of a cube that serves a receiver; undecided where two are equally near but for rounding and do not agree.

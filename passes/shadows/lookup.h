@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "passes/image_set.h"
 #include "passes/scene/shadow_views.h"
+#include "passes/shadow_filter.h"
 #include "passes/shadows/kernel.h"
 #include "passes/shadows/receivers.h"
-#include "passes/shadows/shadow_filter.h"
-#include "passes/technique.h"
 
 namespace strata::shadows {
 

@@ -5,7 +5,10 @@
 
 #include <tbb/parallel_for.h>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/light_types.h"
 #include "passes/reference/shade.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 
@@ -42,7 +45,7 @@ void for_each_receiver(const StageInput& input, const std::function<void(const R
 }
 
 Towards towards(const Frame& frame, const Light& light, const glm::dvec3& position) {
-    if (light.type == LightType::directional) {
+    if (!has_range(light.type)) {
         return {-(frame.view.to_view * glm::normalize(glm::dvec3(light.direction))), std::numeric_limits<double>::infinity()};
     }
     const glm::dvec3 offset = to_view(frame, light.position) - position;

@@ -6,9 +6,11 @@
 
 #include <glm/glm.hpp>
 
-#include "passes/stages.h"
-
 namespace strata {
+
+struct Frame;       // capture_format/frame.h
+struct Light;       // capture_format/frame/light.h
+struct StageInput;  // passes/stage_input.h
 
 /// A visible surface under a sample, view space.
 struct Receiver {

@@ -1,7 +1,7 @@
 // Parameters of every technique with shadow maps: how the maps are looked up, and how casters are drawn into them.
 #pragma once
 
-#include "passes/shadows/shadow_filter.h"
+#include "passes/shadow_filter.h"
 
 namespace strata {
 

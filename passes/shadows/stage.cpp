@@ -1,4 +1,5 @@
 // The stage shadows: what it writes, and when a frame does not need it.
+#include "capture_format/frame_features.h"
 #include "passes/shadows/judge.h"
 #include "passes/shadows/truth.h"
 #include "passes/stages.h"

@@ -7,20 +7,23 @@
 #include <span>
 #include <vector>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/light_types.h"
 #include "passes/reference/directions.h"
 #include "passes/reference/light_sets.h"
 #include "passes/reference/rays.h"
 #include "passes/shadows/receivers.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 
 namespace {
 
-// Metres a ray starts off its surface. Positions come from float depth: wrong by 6e-8 z along the eye's ray, which a ray
+// Meters a ray starts off its surface. Positions come from float depth: wrong by 6e-8 z along the eye's ray, which a ray
 // that leaves at a grazing angle of 0.1 degrees sees 600 times larger.
 double start(const Receiver& receiver) { return 1e-3 + 1e-4 * receiver.position.z; }
 
-// What counts as infinitely far for the sun's rays, in metres.
+// What counts as infinitely far for the sun's rays, in meters.
 constexpr double sun_distance = 1e9;
 // Rays to a soft light: 16 rings of equal area, 16 sectors of each, which err by some 1/256 along a straight edge.
 constexpr int rings = 16, sectors = 16;
@@ -60,18 +63,16 @@ std::vector<Ray> cone_rays(const glm::dvec3& axis, double cosine, const Length& 
     return rays;
 }
 
-bool is_all_around(const Light& light) { return light.type == LightType::omni || light.type == LightType::sphere; }
-
 // To where a light shines from: the sun's disc, a spot's disc, the sphere of other lights, or one point where it is not soft.
 std::vector<Ray> rays_to(const Frame& frame, const Light& light, const glm::dvec3& position) {
     const Towards to = towards(frame, light, position);
-    const bool is_sun = light.type == LightType::directional;
+    const bool is_sun = !has_range(light.type);
     const double radius = double(light.source_radius), distance = std::min(to.distance, sun_distance);
     if (!light.shadow.soft || (!is_sun && radius == 0)) return {{to.direction, distance}};
     if (is_sun) {
         return cone_rays(to.direction, std::cos(double(frame.sun.angular_radius)), [](double) { return sun_distance; });
     }
-    if (is_all_around(light)) {
+    if (!is_spot(light.type)) {
         if (distance <= radius) return {{to.direction, 0}};  // inside
         const double squared = radius * radius - distance * distance;
         return cone_rays(to.direction, std::sqrt(-squared) / distance, [&](double cosine) {

@@ -2,9 +2,11 @@
 // one.
 #pragma once
 
-#include "passes/stages.h"
+#include "passes/image_set.h"
 
 namespace strata {
+
+struct StageInput;  // passes/stage_input.h
 
 /// "visibility": the share of the light's source that nothing stands before, of a soft light any, else 0 or 1. A soft spot's
 /// source is a disc across its direction, an omni light's a sphere, the sun's a cone. Layers as FrameImages::visibility. Empty

@@ -5,6 +5,7 @@
 #include "captures/scenarios.h"
 #include "passes/reference/difference.h"
 #include "passes/reference/fragments.h"
+#include "passes/stage_input.h"
 #include "passes/sun_shafts/march.h"
 #include "passes/sun_shafts/march_model.h"
 #include "passes/sun_shafts/truth.h"

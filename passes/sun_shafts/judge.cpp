@@ -1,8 +1,10 @@
 #include "passes/sun_shafts/judge.h"
 
 #include <cmath>
+#include <cstddef>
 
 #include "passes/reference/difference.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 namespace {
@@ -22,7 +24,7 @@ double mean(const ReferenceImage& got, const ReferenceImage& wanted) {
 
 }  // namespace
 
-std::vector<Figure> sun_shafts_judge(const ImageSet& result, const ImageSet& truth, const StageInput&) {
+std::vector<Metric> sun_shafts_judge(const ImageSet& result, const ImageSet& truth, const StageInput&) {
     const ReferenceImage &got = result.at("shafts"), &wanted = truth.at("shafts");
     const Difference error = difference(got, wanted);
     const double whole = mean(got, wanted);

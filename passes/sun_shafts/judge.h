@@ -3,12 +3,14 @@
 
 #include <vector>
 
-#include "passes/stages.h"
+#include "passes/figure.h"
 
 namespace strata {
 
+struct StageInput;  // passes/stage_input.h
+
 /// Relative root mean square error of radiance, the same absolute, the largest error, and the mean of result - truth relative to
 /// the mean of the truth: below 0, the shafts are too dark.
-std::vector<Figure> sun_shafts_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
+std::vector<Metric> sun_shafts_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
 
 }  // namespace strata

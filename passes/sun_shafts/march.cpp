@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <numbers>
 
+#include "capture_format/frame/frame.h"
 #include "passes/choice_names.h"
 #include "passes/edges/plain_pixels.h"
+#include "passes/frame_images.h"
+#include "passes/sun_shafts/march_params.h"
 #include "passes/sun_shafts/truths.h"
 
 namespace strata::sun_shafts {
@@ -40,8 +43,8 @@ MarchPush push_of(const Frame& frame, const MarchParams& params) {
 }
 
 /// What every step that asks where rays end is given.
-ComputePass read_rays(ComputePass pass, const FrameImages& frame, const MarchParams& params) {
-    return pass.samples("depth_layers", frame.depth_layers)
+ComputeStep read_rays(ComputeStep builder, const FrameImages& frame, const MarchParams& params) {
+    return builder.samples("depth_layers", frame.depth_layers)
         .push(push_of(*frame.recorded, params))
         .fixes("normalization", params.normalization)
         .fixes("phase", params.phase);
@@ -89,7 +92,7 @@ Image stored(Graph& graph, const MarchWork& work, const Stored& what) {
     const auto cells = [&](std::uint32_t pixels) { return (pixels + what.divisor - 1) / what.divisor; };
     const Extent extent{cells(frame.extent.width), cells(frame.extent.height)};
     Image image = graph.create(what.name, {.extent = extent, .format = Format::rgba16f, .layers = what.layers});
-    ComputePass march = read_rays(graph.compute(shader.name), frame, params);
+    ComputeStep march = read_rays(graph.compute(shader.name), frame, params);
     sample_edges(march, frame);
     if (shader.bounds) {
         fix_shadow_bounds(march, shader.bounds->settings).samples("shadow_bounds", shader.bounds->image);

@@ -25,11 +25,11 @@ layout(set = 0, binding = 0) uniform sampler2DArray shadow_maps;
 layout(set = 0, binding = 1, rgba16f) writeonly uniform image2DArray shafts;
 layout(set = 0, binding = 3, scalar) buffer Counters { MarchCounters counters; };
 
-// How a ray lies in one map: the eye, and what a metre adds. Texels in x and y, depth in z.
+// How a ray lies in one map: the eye, and what a meter adds. Texels in x and y, depth in z.
 struct MapRay {
     ivec3 corner;  // the map's first texel, its layer
     int size;
-    vec3 eye, per_metre;
+    vec3 eye, per_meter;
 };
 
 struct Tally {
@@ -62,8 +62,8 @@ MapRay map_ray(uint record, vec3 direction) {
     const ShadowRecord map = shadows[record];
     const vec3 units = vec3(map.size, map.size, 1.0);
     precise const vec3 eye = units * (map.view_to_map * vec4(-map.bias * lights[0].direction, 1.0)).xyz;
-    precise const vec3 per_metre = units * (map.view_to_map * vec4(direction, 0.0)).xyz;
-    return MapRay(ivec3(map.offset, map.layer), int(map.size), eye, per_metre);
+    precise const vec3 per_meter = units * (map.view_to_map * vec4(direction, 0.0)).xyz;
+    return MapRay(ivec3(map.offset, map.layer), int(map.size), eye, per_meter);
 }
 
 // Outside the map, depth is that of nothing drawn: lit.
@@ -95,27 +95,27 @@ uint record_at(float z) {
     return record;
 }
 
-// Metres from the eye to a step's place: one in every stratum, or X-Ray's from the surface to near the eye.
-float place_of(uint k, float metres, float drawn) {
+// Meters from the eye to a step's place: one in every stratum, or X-Ray's from the surface to near the eye.
+float place_of(uint k, float meters, float drawn) {
     const float n = float(steps);
     precise float share = (float(k) + drawn) / n;
     if (stepping == stepping_xray) share = 1.0 - float(k) * (n - drawn) / (n * n);
-    return metres * share;
+    return meters * share;
 }
 
 // What reaches the eye of what is scattered in a step's stratum, relative to its like at the eye.
-float remains(uint k, float metres, float place) {
+float remains(uint k, float meters, float place) {
     if (normalization == normalization_steps) return 1.0;
     if (extinction == extinction_sampled) return exp(-view.fog_density * place);
     const uint stratum = stepping == stepping_xray ? steps - 1u - k : k;
-    precise const float begin = metres * (float(stratum) / float(steps));
+    precise const float begin = meters * (float(stratum) / float(steps));
     return exp(-view.fog_density * begin);
 }
 
 // Of all steps' sum, so that 1 is lit throughout; with extinction=sampled but for the error of that.
-float step_share(float metres) {
+float step_share(float meters) {
     if (normalization == normalization_steps) return 1.0 / float(steps);
-    precise const float depth = view.fog_density * metres, in_step = depth / float(steps);
+    precise const float depth = view.fog_density * meters, in_step = depth / float(steps);
     return (extinction == extinction_sampled ? in_step : lost(in_step)) / lost(depth);
 }
 
@@ -123,13 +123,13 @@ float step_share(float metres) {
 float covered_place(float place, ShaftRay ray) { return max(place, view.near / ray.direction.z); }
 
 vec3 place_on(MapRay map, float covered) {
-    precise const vec3 at = map.eye + map.per_metre * covered;
+    precise const vec3 at = map.eye + map.per_meter * covered;
     return at;
 }
 
 // Where the last step of the segment that begins with step k is covered.
 float end_of_segment(uint k, ShaftRay ray, float drawn) {
-    return covered_place(place_of(min(k + segment, steps) - 1u, ray.metres, drawn), ray);
+    return covered_place(place_of(min(k + segment, steps) - 1u, ray.meters, drawn), ray);
 }
 
 // The share of the light scattered along the ray that the sun's shadows leave.
@@ -141,7 +141,7 @@ float lit_share_of(ShaftRay ray, uvec2 texel, inout Tally tally) {
     float known = 1.0;
     precise float sum = 0.0;
     for (uint k = 0u; k < steps; ++k) {
-        precise const float place = place_of(k, ray.metres, drawn);
+        precise const float place = place_of(k, ray.meters, drawn);
         float lit = known;
         if (has_maps != 0u && !(is_known && k % segment != 0u)) {
             precise const float covered = covered_place(place, ray);
@@ -158,9 +158,9 @@ float lit_share_of(ShaftRay ray, uvec2 texel, inout Tally tally) {
             if (is_known) lit = known;
             else if (!is_decided(map, at, tally, lit)) lit = lit_share(map, at, tally);
         }
-        sum += remains(k, ray.metres, place) * lit;
+        sum += remains(k, ray.meters, place) * lit;
     }
-    return sum * step_share(ray.metres);
+    return sum * step_share(ray.meters);
 }
 
 // Adds to a count kept as 1024s and the rest: what the rest passes on.
@@ -186,7 +186,7 @@ void main() {
     Tally tally = Tally(0u, 0u, 0u, 0u);
     const float share = lit_share_of(ray, uvec2(texel.xy), tally);
     count(tally);
-    vec3 result = divisor > 1u ? vec3(share) : share * scattered(ray.metres) * push.radiance * phase_factor(ray.direction);
+    vec3 result = divisor > 1u ? vec3(share) : share * scattered(ray.meters) * push.radiance * phase_factor(ray.direction);
     if (shows_decided != 0u) result = vec3(float(tally.skipped + tally.in_segments) / float(steps));
     imageStore(shafts, texel, vec4(result, 1.0));
     if (!is_plain(at.xy)) return;

@@ -6,9 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "passes/debug_views.h"
+#include "passes/settings.h"
 #include "passes/shadows/bounds/nodes.h"
 #include "passes/sun_shafts/march.shared.h"
-#include "passes/technique.h"
 
 namespace strata::sun_shafts {
 

@@ -36,26 +36,9 @@ const uint cascade_last = 1u;
 const uint bounds_as_narrow = 0u;
 const uint bounds_shared = 1u;
 
-struct MarchParams {
-    uint steps;
-    uint taps;
-    uint stepping;
-    uint jitter;
-    uint resolution;
-    uint extinction;
-    uint normalization;
-    uint phase;
-    uint cascade;
-    float intensity;
-    uint asymmetry;  // which of phase_asymmetries (truths.h)
-    // Of sun_shafts/ray_march_min_max alone.
-    uint segment;
-    uint bounds;
-};
-
 struct MarchPush {
     vec3 radiance;    // of a ray that scatters all of the sun's light and is lit throughout
-    float far;        // view depth in metres where rays end, if no surface ends them
+    float far;        // view depth in meters where rays end, if no surface ends them
     vec3 to_sun;      // unit, view space
     float asymmetry;  // g of Henyey and Greenstein
 };

@@ -12,11 +12,15 @@
 
 #include <tbb/parallel_for.h>
 
+#include "capture_format/frame/frame.h"
 #include "passes/edges/plain_pixels.h"
 #include "passes/reference/pcg.h"
 #include "passes/reference/shade.h"
+#include "passes/settings.h"
 #include "passes/shadows/lookup.h"
+#include "passes/stage_input.h"
 #include "passes/sun_shafts/march.shared.h"
+#include "passes/sun_shafts/march_params.h"
 #include "passes/sun_shafts/truths.h"
 
 namespace strata::sun_shafts {
@@ -38,7 +42,7 @@ struct Amount {
 
 struct MarchedRay {
     glm::dvec3 direction{0};
-    double metres = 0, z = 0;
+    double meters = 0, z = 0;
 };
 
 /// A frame's rays and what one step of them finds.
@@ -75,7 +79,7 @@ public:
         return depth > 0 ? std::min(near_ / depth, far) : far;
     }
     /// What a ray that is lit throughout scatters.
-    double whole(const MarchedRay& ray) const { return scatters_by_step() ? 1 : -std::expm1(-density_ * ray.metres); }
+    double whole(const MarchedRay& ray) const { return scatters_by_step() ? 1 : -std::expm1(-density_ * ray.meters); }
     Amount marched(const MarchedRay&, glm::uvec2 texel) const;
     glm::dvec3 radiance(const MarchedRay&) const;
 
@@ -93,9 +97,9 @@ private:
     bool scatters_by_step() const { return params.normalization == normalization_steps; }
     double drawn(glm::uvec2 texel) const;
     double weight(std::uint32_t step, const MarchedRay&, double place) const;
-    double close_metres(const MarchedRay&, glm::uvec2 texel) const;
-    Lit lit_at(const MarchedRay&, double place, double close_metres) const;
-    Lit lit_in(const ShadowView&, const glm::dvec3& place, double close_metres) const;
+    double close_meters(const MarchedRay&, glm::uvec2 texel) const;
+    Lit lit_at(const MarchedRay&, double place, double close_meters) const;
+    Lit lit_in(const ShadowView&, const glm::dvec3& place, double close_meters) const;
     double looked_up(const shadows::Lookup&) const;
 
     const double density_, near_;
@@ -117,7 +121,7 @@ double March::drawn(glm::uvec2 texel) const {
 
 /// Of a step in the sum that gives whole() where every step is lit, with sampled extinction but for its error.
 double March::weight(std::uint32_t step, const MarchedRay& ray, double place) const {
-    const double n = params.steps, depth = density_ * ray.metres / n;
+    const double n = params.steps, depth = density_ * ray.meters / n;
     if (scatters_by_step()) return 1 / n;
     if (params.extinction == extinction_sampled) return depth * std::exp(-density_ * place);
     const double stratum = params.stepping == stepping_xray ? n - 1 - step : step;
@@ -129,13 +133,13 @@ double March::looked_up(const shadows::Lookup& at) const {
     return std::max(at.depth, 0.0) >= shadows::map_depth(*maps_, at, glm::ivec2(glm::floor(at.u))) ? 1 : 0;
 }
 
-March::Lit March::lit_in(const ShadowView& view, const glm::dvec3& place, double close_metres) const {
+March::Lit March::lit_in(const ShadowView& view, const glm::dvec3& place, double close_meters) const {
     const glm::dvec4 map = view.view_to_map * glm::dvec4(place + view.bias * to_sun_, 1);
     const shadows::Lookup at{
         .layer = view.layer, .size = view.size, .u = glm::dvec2(map) * double(view.size), .depth = map.z, .offset = view.offset};
-    const double lit = looked_up(at), metres = close_metres + close_share * (1 + glm::length(place));
-    const double texels = close_edge * double(view.size) + metres / view.texel;
-    const double depth = close_depth + metres * glm::length(glm::dvec3(glm::transpose(view.view_to_map)[2]));
+    const double lit = looked_up(at), meters = close_meters + close_share * (1 + glm::length(place));
+    const double texels = close_edge * double(view.size) + meters / view.texel;
+    const double depth = close_depth + meters * glm::length(glm::dvec3(glm::transpose(view.view_to_map)[2]));
     Lit found{lit, lit, lit};
     for (int corner = 0; corner < 8; ++corner) {
         shadows::Lookup other = at;
@@ -149,24 +153,24 @@ March::Lit March::lit_in(const ShadowView& view, const glm::dvec3& place, double
 }
 
 /// How far a step's place may be from its like on the device, for the numbers that are drawn.
-double March::close_metres(const MarchedRay& ray, glm::uvec2 texel) const {
+double March::close_meters(const MarchedRay& ray, glm::uvec2 texel) const {
     if (params.jitter != jitter_interleaved_gradient) return 0;
-    return (close_gradient + close_gradient_pixel * (texel.x + texel.y)) * ray.metres / params.steps;
+    return (close_gradient + close_gradient_pixel * (texel.x + texel.y)) * ray.meters / params.steps;
 }
 
-March::Lit March::lit_at(const MarchedRay& ray, double place, double close_metres) const {
+March::Lit March::lit_at(const MarchedRay& ray, double place, double close_meters) const {
     if (cascades_.empty()) return {};
     // Maps begin at the near plane: what lies before it is lit as the place on it.
     const glm::dvec3 position = std::max(place, near_ / ray.direction.z) * ray.direction;
     std::size_t slot = cascades_.size() - 1;
     if (params.cascade == cascade_of_step)
         while (slot > 0 && position.z < cascades_[slot - 1].range_end) --slot;
-    Lit found = lit_in(cascades_[slot], position, close_metres);
+    Lit found = lit_in(cascades_[slot], position, close_meters);
     for (std::size_t other = 0; other + 1 < cascades_.size(); ++other) {
         const double border = cascades_[other].range_end;
-        if (params.cascade == cascade_last || std::abs(position.z - border) > 1e-5 * border + close_metres) continue;
+        if (params.cascade == cascade_last || std::abs(position.z - border) > 1e-5 * border + close_meters) continue;
         for (const std::size_t side : {other, other + 1}) {
-            const Lit there = lit_in(cascades_[side], position, close_metres);
+            const Lit there = lit_in(cascades_[side], position, close_meters);
             found.low = std::min(found.low, there.low);
             found.high = std::max(found.high, there.high);
         }
@@ -175,11 +179,11 @@ March::Lit March::lit_at(const MarchedRay& ray, double place, double close_metre
 }
 
 Amount March::marched(const MarchedRay& ray, glm::uvec2 texel) const {
-    const double n = params.steps, offset = drawn(texel), close = close_metres(ray, texel);
+    const double n = params.steps, offset = drawn(texel), close = close_meters(ray, texel);
     Amount sum;
     for (std::uint32_t k = 0; k < params.steps; ++k) {
         const double share = params.stepping == stepping_xray ? 1 - k * (n - offset) / (n * n) : (k + offset) / n;
-        const double place = share * ray.metres, part = weight(k, ray, place) / whole(ray);
+        const double place = share * ray.meters, part = weight(k, ray, place) / whole(ray);
         const Lit found = lit_at(ray, place, close);
         sum.share += part * found.lit;
         sum.spread += part * std::max(found.high - found.lit, found.lit - found.low);

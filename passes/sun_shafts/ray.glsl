@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Push { MarchPush push; };
 
 struct ShaftRay {
     vec3 direction;  // unit
-    float metres;    // its length
+    float meters;    // its length
     float z;         // view depth of its end
 };
 
@@ -33,7 +33,7 @@ ShaftRay ray_to(ivec3 at) {
 float lost(float x) { return x < 0.03125 ? x * (1.0 - x * (0.5 - x * (1.0 / 6.0 - x / 24.0))) : 1.0 - exp(-x); }
 
 // What a ray that is lit throughout scatters, as a share of push.radiance.
-float scattered(float metres) { return normalization == normalization_steps ? 1.0 : lost(view.fog_density * metres); }
+float scattered(float meters) { return normalization == normalization_steps ? 1.0 : lost(view.fog_density * meters); }
 
 // What a ray's direction makes of isotropic scattering: 1 on average over all directions (Henyey, Greenstein: Diffuse Radiation
 // in the Galaxy, 1941).

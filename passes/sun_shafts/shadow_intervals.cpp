@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
 #include "passes/reference/directions.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/surfaces.h"
@@ -69,7 +71,7 @@ ShadowVolumes::ShadowVolumes(const Frame& frame) : frame_(&frame) {
 
 bool ShadowVolumes::shadowed(const Caster& caster, const Ray& ray, Interval& part) {
     const auto& c = caster.corners;
-    const glm::dvec2 way(ray.per_metre), a(c[0]), b(c[1]), d(c[2]);
+    const glm::dvec2 way(ray.per_meter), a(c[0]), b(c[1]), d(c[2]);
     const double area = cross(b - a, d - a), side = area > 0 ? 1 : -1;
     part = {0, ray.length};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -80,13 +82,13 @@ bool ShadowVolumes::shadowed(const Caster& caster, const Ray& ray, Interval& par
     const glm::dvec2 e(c[1] - c[0]), f(c[2] - c[0]);
     const double e_height = c[1].z - c[0].z, f_height = c[2].z - c[0].z;
     const glm::dvec2 gradient = glm::dvec2(e_height * f.y - f_height * e.y, f_height * e.x - e_height * f.x) / area;
-    return keep_positive(c[0].z - glm::dot(gradient, a), glm::dot(gradient, way) - ray.per_metre.z, part);
+    return keep_positive(c[0].z - glm::dot(gradient, a), glm::dot(gradient, way) - ray.per_meter.z, part);
 }
 
 void ShadowVolumes::add_masked(const Caster& caster, const Ray& ray, const Interval& part, std::vector<Interval>& parts) const {
     const double cutoff = double(material_of(*frame_, caster.draw)->mask_cutoff);
     const auto solid = [&](double t) {
-        const glm::dvec3 where = barycentric(caster.corners, glm::dvec2(ray.per_metre) * t);
+        const glm::dvec3 where = barycentric(caster.corners, glm::dvec2(ray.per_meter) * t);
         return alpha_at(*frame_, caster.draw, caster.triangle, where) >= cutoff;
     };
     double before = part.begin, begin = part.begin;
@@ -107,9 +109,9 @@ void ShadowVolumes::add_masked(const Caster& caster, const Ray& ray, const Inter
 }
 
 std::vector<Interval> ShadowVolumes::shadows(const glm::dvec3& direction, double length) const {
-    const glm::dvec3 per_metre = to_sun_space_ * direction;
-    const glm::dvec2 end = glm::dvec2(per_metre) * length;
-    const Ray ray{per_metre, glm::min(end, glm::dvec2(0)), glm::max(end, glm::dvec2(0)), length};
+    const glm::dvec3 per_meter = to_sun_space_ * direction;
+    const glm::dvec2 end = glm::dvec2(per_meter) * length;
+    const Ray ray{per_meter, glm::min(end, glm::dvec2(0)), glm::max(end, glm::dvec2(0)), length};
     std::vector<Interval> parts;
     for (const Caster& caster : casters_) {
         const bool is_apart =

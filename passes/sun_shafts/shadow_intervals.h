@@ -12,11 +12,15 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
+namespace strata {
+
+struct Frame;  // capture_format/frame.h
+
+}  // namespace strata
 
 namespace strata::sun_shafts {
 
-/// Metres along a ray.
+/// Meters along a ray.
 struct Interval {
     double begin = 0, end = 0;
 };
@@ -38,9 +42,9 @@ private:
         std::uint32_t draw = 0, triangle = 0;
         bool masked = false;
     };
-    /// A ray in the same space: place = per_metre * t.
+    /// A ray in the same space: place = per_meter * t.
     struct Ray {
-        glm::dvec3 per_metre;
+        glm::dvec3 per_meter;
         glm::dvec2 low, high;
         double length = 0;
     };

@@ -1,4 +1,4 @@
-// The lit share of each pixel's first sample in grey: its shafts relative to those of a ray that is lit throughout.
+// The lit share of each pixel's first sample in gray: its shafts relative to those of a ray that is lit throughout.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/shaders/luminance.glsl"
@@ -13,7 +13,7 @@ void main() {
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(shown)))) return;
     const ShaftRay ray = ray_to(ivec3(pixel, 0));
-    const float whole = scattered(ray.metres) * luminance(push.radiance) * phase_factor(ray.direction);
+    const float whole = scattered(ray.meters) * luminance(push.radiance) * phase_factor(ray.direction);
     const float own = luminance(texelFetch(shafts, ivec3(pixel, 0), 0).rgb);
     imageStore(shown, pixel, vec4(vec3(whole > 0.0 ? own / whole : 0.0), 1.0));
 }

@@ -1,4 +1,6 @@
 // The stage sun_shafts: what it writes, and when a frame does not need it.
+#include "capture_format/frame_features.h"
+#include "passes/stage_input.h"
 #include "passes/stages.h"
 #include "passes/sun_shafts/judge.h"
 #include "passes/sun_shafts/truth.h"

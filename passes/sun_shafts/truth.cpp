@@ -7,7 +7,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include "capture_format/frame/frame.h"
 #include "passes/reference/shade.h"
+#include "passes/stage_input.h"
 #include "passes/sun_shafts/shadow_intervals.h"
 #include "passes/sun_shafts/truths.h"
 

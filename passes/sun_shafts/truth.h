@@ -2,7 +2,7 @@
 //
 //     L = E phase(angle) * integral from 0 to D of V(t) sigma exp(-sigma t) dt
 //
-// E: the sun's irradiance; sigma: the fog's density, all of which scatters; D: metres along the ray to the surface, or to the
+// E: the sun's irradiance; sigma: the fog's density, all of which scatters; D: meters along the ray to the surface, or to the
 // view depth sun.shadow_distance if nothing is nearer; V(t): 0 where a caster stands between the place at t and the sun, else 1.
 // The sun is a point: its angular radius is left out. Between the ends of V's intervals, found exactly, the integral has a closed
 // form.
@@ -10,9 +10,11 @@
 
 #include <vector>
 
-#include "passes/stages.h"
+#include "passes/figure.h"
 
 namespace strata {
+
+struct StageInput;  // passes/stage_input.h
 
 /// "shafts": radiance, one layer per sample, each along its own ray. Isotropic: phase = 1 / (4 pi).
 ImageSet sun_shafts_truth(const StageInput&);

@@ -34,7 +34,7 @@ void main() {
     const ivec3 at = ivec3(gl_GlobalInvocationID);
     if (any(greaterThanEqual(at, imageSize(shafts))) || at.z > 0 && is_plain(at.xy)) return;
     const ShaftRay ray = ray_to(at);
-    const vec4 result = vec4(upsampled(at.xy, ray.z) * scattered(ray.metres) * push.radiance * phase_factor(ray.direction), 1.0);
+    const vec4 result = vec4(upsampled(at.xy, ray.z) * scattered(ray.meters) * push.radiance * phase_factor(ray.direction), 1.0);
     imageStore(shafts, at, result);
     if (!is_plain(at.xy)) return;
     for (int i = 1; i < imageSize(shafts).z; ++i) imageStore(shafts, ivec3(at.xy, i), result);

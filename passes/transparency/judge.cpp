@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
+#include "capture_format/frame/frame.h"
 #include "passes/reference/difference.h"
+#include "passes/stage_input.h"
 
 namespace strata {
 namespace {
@@ -35,7 +38,7 @@ double relative_error(const glm::dvec4& got, const glm::dvec4& wanted) {
 
 }  // namespace
 
-std::vector<Figure> transparency_judge(const ImageSet& result, const ImageSet& truth, const StageInput& input) {
+std::vector<Metric> transparency_judge(const ImageSet& result, const ImageSet& truth, const StageInput& input) {
     const ReferenceImage &got = result.at("color"), &wanted = truth.at("color");
     const Difference error = difference(got, wanted);
     std::size_t off = 0;

@@ -3,13 +3,15 @@
 
 #include <vector>
 
-#include "passes/stages.h"
+#include "passes/figure.h"
 
 namespace strata {
+
+struct StageInput;  // passes/stage_input.h
 
 /// rmse and worst sample in radiance, rmse relative to the truth's root mean square, bias (mean signed error: above 0 things
 /// shine through that should not, or nothing hides them); of each sample's relative error the 95th and 99th percentile and the
 /// share of samples over 2 % and over 10 %; and the share of samples more than 1/255 off after the tone curve.
-std::vector<Figure> transparency_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
+std::vector<Metric> transparency_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
 
 }  // namespace strata

@@ -1,4 +1,4 @@
-// Events beyond those that a technique keeps, of the pixel's worst sample.
+// Fragments beyond those that a technique keeps, of the pixel's worst sample.
 #version 460
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,5 +1,5 @@
-// What is left of a number in the formats that sums are kept in, for models: a method's format is part of the method. Which way
-// blending rounds is the device's: towards zero, 200 layers of alpha .01 sum up to 1.965 of 2.010 in half floats, and in
+// What is left of a number in the formats that sums are kept in, for models: a technique's format is part of the technique. Which
+// way blending rounds is the device's: towards zero, 200 layers of alpha .01 sum up to 1.965 of 2.010 in half floats, and in
 // R11G11B10F the sum stops at 1.
 #pragma once
 
@@ -26,7 +26,7 @@ double nearest_code(double value, SmallFloat);
 double rounded(double value, SmallFloat, Rounding);
 /// As a device rounds what it blends into the format.
 double rounded(double value, SmallFloat, BlendRounding);
-/// A half float; without a direction the number itself: the method in exact arithmetic.
+/// A half float; without a direction the number itself: the technique in exact arithmetic.
 double in_half(double value, std::optional<Rounding>);
 
 }  // namespace strata::transparency

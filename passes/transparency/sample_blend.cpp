@@ -7,9 +7,11 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "capture_format/frame.h"
 #include "passes/indirect/volume_light.h"
 #include "passes/luminance.h"
 #include "passes/reference/ordering.h"
+#include "passes/stage_input.h"
 
 namespace strata::transparency {
 namespace {

@@ -8,15 +8,21 @@
 
 #include <glm/glm.hpp>
 
+#include "passes/image_set.h"
 #include "passes/reference/fragments.h"
-#include "passes/stages.h"
+
+namespace strata {
+
+struct StageInput;  // passes/stage_input.h
+
+}  // namespace strata
 
 namespace strata::transparency {
 
 /// The new radiance of a sample: its fragments in submission order over what is behind.
 using SampleBlend = std::function<glm::dvec3(std::span<const Fragment>, glm::dvec3 behind)>;
 
-/// The same where the method asks which sample it is (x, y, sample), and may find that its result hangs on rounding.
+/// The same where the technique asks which sample it is (x, y, sample), and may find that its result hangs on rounding.
 struct BlendedSample {
     glm::dvec3 radiance{0};
     bool undecided = false;

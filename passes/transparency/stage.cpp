@@ -1,6 +1,6 @@
 // The stage transparency: what it writes, and when a frame does not need it.
-#include <fmt/format.h>
-
+#include "capture_format/frame/light.h"
+#include "capture_format/result.h"
 #include "passes/frame_images.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/stages.h"
@@ -16,22 +16,25 @@ std::optional<std::string> unwanted(const Features& features) {
     return "the frame has no transparent draws or particles";
 }
 
-// Every lit fragment asks all lights (event.glsl), and few techniques have a counter where they draw.
-std::optional<std::string> beyond_device(const FrameImages& images) {
-    const std::uint64_t turns = images.facts->light_turns();
-    constexpr std::uint64_t other_turns = 1024;  // of the material's textures and the technique
-    if (turns + other_turns <= most_short_turns || has(images.capabilities, Capability::long_loops)) return std::nullopt;
+// Every lit fragment asks all lights (fragment.glsl), and few techniques have a counter where they draw.
+std::optional<Error> beyond_device(const FrameImages& images) {
+    const std::uint64_t iterations = images.facts->light_iterations();
+    constexpr std::uint64_t other_iterations = 1024;  // of the material's textures and the technique
+    if (iterations + other_iterations <= most_short_iterations || has(images.capabilities, Capability::long_loops))
+        return std::nullopt;
     if (!images.facts->material_uses(Surfaces::transparent).is_lit()) return std::nullopt;
-    return fmt::format(
-        "a transparent fragment asks {} lights with their blockers and portals, up to {} turns of a loop, and this device ends "
-        "loops after {}",
-        images.facts->lights().size(), turns, most_short_turns);
+    return fail(
+        Fault::device_lacks, "device.short_loops",
+        "a transparent fragment tests {lights} lights with their blockers and portals in up to {iterations} loop iterations, and "
+        "this device ends loops after {limit}",
+        images.facts->lights().size(), iterations, most_short_iterations);
 }
 
 }  // namespace
 
 StageInfo stage() {
     return {.purpose = "blends glass, smoke and sparks over the opaque frame",
+            .aliases = {"oit"},
             .unwanted = unwanted,
             .beyond_device = beyond_device,
             .outputs = {"color"},

@@ -1,5 +1,6 @@
 #include "passes/transparency/truth.h"
 
+#include "passes/stage_input.h"
 #include "passes/transparency/distortion/model.h"
 
 namespace strata {

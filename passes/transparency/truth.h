@@ -3,10 +3,12 @@
 
 #include <span>
 
+#include "passes/image_set.h"
 #include "passes/reference/fragments.h"
-#include "passes/stages.h"
 
 namespace strata {
+
+struct StageInput;  // passes/stage_input.h
 
 /// One sample's fragments in submission order over what is behind: C = sum T (p + e) + T_total L_behind, near to far. Of equal
 /// depths the later submission is nearer.

@@ -10,14 +10,15 @@
 #include "replay/gpu/device.h"
 #include "replay/isa/isa_report.h"
 #include "replay/session/session.h"
+#include "replay/tables/sheet.h"
 
 namespace strata {
 
 /// How much the measuring itself does: small for tests.
 struct LimitWork {
-    std::uint64_t copied_bytes = 64 << 20;            ///< of one buffer to another
-    std::uint32_t threads = 64 * 1024, turns = 1024;  ///< of the loop of multiply-adds
-    std::stop_token stop = {};                        ///< asked between repeats
+    std::uint64_t copied_bytes = 64 << 20;                 ///< of one buffer to another
+    std::uint32_t threads = 64 * 1024, iterations = 1024;  ///< of the loop of multiply-adds
+    std::stop_token stop = {};                             ///< asked between repeats
 };
 
 /// In units per second.
@@ -40,7 +41,7 @@ struct StepShare {
     Spread ms;
     std::uint64_t bytes = 0;
     std::optional<std::uint64_t> invocations;  ///< of the fragment or compute shader
-    std::string counted_by;                    ///< IsaPass::counted_by
+    std::string counted_by;                    ///< IsaStep::counted_by
     OperationCount per_invocation;
 
     std::optional<double> operations() const;
@@ -53,8 +54,9 @@ struct DeviceBench {
     std::size_t frame = 0, repeats = 0;
     std::uint32_t width = 0, height = 0, samples = 1;
     double frame_ms = 0;
-    std::vector<StepShare> steps;  ///< the hottest, most time first
-    std::string stopped = {};      ///< how many repeats there are where a stop was asked for
+    std::vector<StepShare> steps;            ///< the hottest, most time first
+    std::string stopped = {};                ///< how many repeats there are where a stop was asked for
+    std::string date = {}, capture_id = {};  ///< utc_date(); both the caller's
 
     /// Shares of the limits; the larger of the two says what the step is bound by, if anything.
     double share_of_bytes(const StepShare&) const;
@@ -72,7 +74,11 @@ struct DeviceBenchWish {
 /// are complete, or fails (stopped) where there is none.
 Result<DeviceBench> bench_device(Session&, Device& for_limits, const DeviceBenchWish&);
 
+/// A row for each step.
+Sheet sheet_of(const DeviceBench&);
+Page page_of(const DeviceBench&);
 std::string as_text(const DeviceBench&);
 std::string as_json(const DeviceBench&);
+std::string as_csv(const DeviceBench&);
 
 }  // namespace strata

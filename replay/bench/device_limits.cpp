@@ -1,6 +1,7 @@
 // What a device can do: bytes that a copy moves, and multiply-adds of a loop.
 #include <cstring>
 
+#include "passes/graph/graph.h"
 #include "passes/shaders/multiply_add.shared.h"
 #include "replay/bench/device_bench.h"
 #include "replay/gpu/executor.h"
@@ -18,7 +19,7 @@ Graph work_of(const LimitWork& work, Buffer& done) {
     done = graph.create("done", std::uint64_t{work.threads} * sizeof(std::uint32_t));
     graph.compute("shaders/multiply_add.comp")
         .stores("Done", done)
-        .push(MultiplyAdd{.factor = 1, .summand = 1, .turns = work.turns})
+        .push(MultiplyAdd{.factor = 1, .summand = 1, .iterations = work.iterations})
         .groups({work.threads / multiply_add_threads, 1, 1});
     graph.keep(done);
     return graph;
@@ -46,18 +47,19 @@ Result<DeviceLimits> measure_limits(Device& device, std::size_t repeats, const L
     std::vector<double> bytes, operations;
     try {
         for (std::size_t turn = 0; turn <= repeats; ++turn) {  // the first warms up
-            if (work.stop.stop_requested()) return fail_unnamed(Fault::stopped, "stopped before a step was timed");
+            if (work.stop.stop_requested()) return fail(Fault::stopped, "session.stopped", "stopped before a step was timed");
             const Execution run = executor->run(*plan, {.timestamps = Timestamps::on});
             limits.operations_done = operations_done(run.buffers.at(done.id));
             const double copy_ms = run.step_costs[1].ms, loop_ms = run.step_costs[2].ms;
             if (copy_ms <= 0 || loop_ms <= 0)
-                return fail_unnamed(Fault::device_lacks, "the device's timestamps are too coarse to measure what it can do");
+                return fail(Fault::device_lacks, "bench.clock_too_coarse",
+                            "the device's timestamps are too coarse to measure what it can do");
             if (turn == 0) continue;
             bytes.push_back(1e3 * static_cast<double>(limits.copied_bytes) / copy_ms);
             operations.push_back(1e3 * static_cast<double>(limits.operations_done) / loop_ms);
         }
     } catch (const DeviceFailure& failure) {
-        return fail_unnamed(Fault::device_failed, "the limits of the device cannot be measured: {}", failure.what());
+        return fail(Fault::device_failed, failure.id(), "the limits of the device cannot be measured: {reason}", failure.what());
     }
     limits.bytes = spread_of(bytes);
     limits.operations = spread_of(operations);

@@ -6,14 +6,16 @@
 #include <nlohmann/json.hpp>
 
 #include "capture_format/expectation_writer.h"
+#include "capture_format/reader.h"
+#include "passes/frame_images.h"
 #include "replay/cli/left_out.h"
+#include "replay/cli/repeat.h"
 #include "replay/cli/verb_options.h"
 #include "replay/expectations/expectation_check.h"
 #include "replay/json_text.h"
 #include "replay/plural.h"
 #include "replay/progress_line.h"
 #include "replay/revision.h"
-#include "replay/session/repeat.h"
 
 namespace strata {
 namespace {
@@ -48,31 +50,31 @@ Result<Candidate> replay_candidate(Session& session, const Request& request, con
         auto verdict = compare_with(*session.capture(), *old, candidate.run, candidate.expectation, 0);
         if (!verdict) return verdict.error();
         candidate.before = *std::move(verdict);
-        for (const ExpectedAct& act : old->acts)
-            for (const ExpectedImage& image : act.images)
+        for (const ExpectedPass& pass : old->passes)
+            for (const ExpectedImage& image : pass.images)
                 candidate.lacks_images = candidate.lacks_images || (options.with_images && image.texels.empty());
     }
     return candidate;
 }
 
-/// Calls each(state, act, image, hash, sentence) for all images of the frame; the sentence says what of a changed one differs.
+/// Calls each(state, pass, image, hash, sentence) for all images of the frame; the sentence says what of a changed one differs.
 template <typename Each>
 void for_images(const Candidate& candidate, const Each& each) {
     if (!candidate.before) {
-        for (const ExpectedAct& act : candidate.expectation.acts)
-            for (const ExpectedImage& image : act.images) each("new", act.label, image.name, image.hash, std::string());
+        for (const ExpectedPass& pass : candidate.expectation.passes)
+            for (const ExpectedImage& image : pass.images) each("new", pass.label, image.name, image.hash, std::string());
         return;
     }
     for (const ImageVerdict& image : candidate.before->images) {
-        if (image.agreement == Agreement::exact) each("same", image.act, image.image, image.hash, std::string());
-        else each("changed", image.act, image.image, image.hash, sentence(image));
+        if (image.agreement == Agreement::exact) each("same", image.pass, image.image, image.hash, std::string());
+        else each("changed", image.pass, image.image, image.hash, sentence(image));
     }
 }
 
 void show(const Candidate& candidate) {
     to_stdout("frame {} on {}\n", candidate.expectation.frame, text(candidate.expectation.on));
-    for_images(candidate, [](const char* state, const auto& act, const auto& image, const auto& hash, const auto& difference) {
-        if (difference.empty()) to_stdout("  {:<8} {:<24} {:<16} {}\n", state, act, image, hash);
+    for_images(candidate, [](const char* state, const auto& pass, const auto& image, const auto& hash, const auto& difference) {
+        if (difference.empty()) to_stdout("  {:<8} {:<24} {:<16} {}\n", state, pass, image, hash);
         else to_stdout("  {:<8} {}\n", state, difference);
     });
 }
@@ -80,16 +82,16 @@ void show(const Candidate& candidate) {
 ordered_json json_of(const Candidate& candidate) {
     ordered_json json{
         {"frame", candidate.expectation.frame}, {"on", text(candidate.expectation.on)}, {"images", ordered_json::array()}};
-    for_images(candidate, [&](const char* state, const auto& act, const auto& image, const auto& hash, const auto&) {
-        json["images"].push_back({{"state", state}, {"act", act}, {"image", image}, {"hash", hash}});
+    for_images(candidate, [&](const char* state, const auto& pass, const auto& image, const auto& hash, const auto&) {
+        json["images"].push_back({{"state", state}, {"pass", pass}, {"image", image}, {"hash", hash}});
     });
     return json;
 }
 
 Result<void> write(ExpectationWriter& writer, Candidate& candidate, const AcceptArguments& options) {
-    for (std::size_t i = 0; options.with_images && i < candidate.run.acts.size(); ++i)
-        for (ExpectedImage& image : candidate.expectation.acts[i].images)
-            image.texels = writer.add_image(candidate.run.acts[i].images.at(image.name).texels);
+    for (std::size_t i = 0; options.with_images && i < candidate.run.passes.size(); ++i)
+        for (ExpectedImage& image : candidate.expectation.passes[i].images)
+            image.texels = writer.add_image(candidate.run.passes[i].images.at(image.name).texels);
     return writer.add(as_json(candidate.expectation));
 }
 
@@ -97,7 +99,7 @@ Result<void> accept(const AcceptArguments& options) {
     auto request = request_of(options.choices);
     if (!request) return request.error();
     request->outputs.clear();
-    request->acts = Acts::brought_back;
+    request->passes = Passes::read_back;
     // Held from before the capture is read: an accept at the same time waits and then reads what this one wrote.
     std::optional<ExpectationWriter> writer;
     if (options.dry_run) {
@@ -116,7 +118,7 @@ Result<void> accept(const AcceptArguments& options) {
     if (!known) return known.error();
 
     std::size_t news = 0;
-    ordered_json json{{"schema", "strata.accept"}, {"schema_version", 1}, {"frames", ordered_json::array()}};
+    ordered_json json{{"schema", "strata.accept"}, {"schema_version", 2}, {"frames", ordered_json::array()}};
     const Progress progress = progress_line();
     LeftOutNotes notes;
     for (const std::size_t frame : *frames) {

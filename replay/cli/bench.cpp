@@ -9,15 +9,17 @@
 
 #include "capture_format/container/whole_file.h"
 #include "capture_format/nearest_name.h"
+#include "capture_format/reader.h"
 #include "captures/scenarios.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "replay/bench/device_bench.h"
 #include "replay/cli/given_options.h"
 #include "replay/cli/left_out.h"
+#include "replay/cli/table_output.h"
 #include "replay/cli/verb_options.h"
 #include "replay/progress_line.h"
 #include "replay/report/variants.h"
-#include "replay/session/choice_text.h"
 
 namespace strata {
 namespace {
@@ -36,32 +38,32 @@ struct BenchArguments {
     OpenOptions open;
     ChoiceOptions choices;
     std::size_t frame = 0, repeats = 7;
-    bool json = false;
-    std::filesystem::path output;
+    TableOutput output;
 };
 
 /// Ratios of the technique of that name, with or without its stage. `only` is in their names.
 Result<std::vector<Claim>> claims_of(const std::string& word, const std::string& only) {
     std::vector<Claim> claims;
     std::vector<std::string_view> known{the_device}, stating, names;
-    bool found = false;
+    const auto words = words_for_techniques();
+    known.insert(known.end(), words.begin(), words.end());
+    const auto called = techniques_called(word);
     for (const Technique& technique : techniques()) {
-        known.insert(known.end(), {technique.name, short_name(technique)});
         if (!technique.claims.ratios.empty()) stating.push_back(technique.name);
-        if (technique.name != word && short_name(technique) != word) continue;
-        found = true;
+        if (std::ranges::count(called, &technique) == 0) continue;
         for (const TimeRatio& ratio : technique.claims.ratios) {
             names.push_back(ratio.name);
             if (ratio.name.find(only) != ratio.name.npos) claims.push_back({.technique = &technique, .ratio = &ratio});
         }
     }
-    if (!found) return fail_unnamed(Fault::usage, "no technique {}{}", word, did_you_mean(word, known));
+    if (called.empty())
+        return fail(Fault::usage, "technique.unknown", "no technique {technique}{suggestion}", word, did_you_mean(word, known));
     if (names.empty())
-        return fail_unnamed(Fault::usage, "{} lists no ratios to measure; these techniques do: {}", word,
-                            fmt::join(stating, ", "));
+        return fail(Fault::usage, "bench.no_ratios", "{technique} lists no ratios to measure; these techniques do: {known}", word,
+                    fmt::format("{}", fmt::join(stating, ", ")));
     if (claims.empty())
-        return fail_unnamed(Fault::usage, "no ratio of {} has '{}' in its name; its ratios: {}", word, only,
-                            fmt::join(names, "; "));
+        return fail(Fault::usage, "bench.unknown_ratio", "no ratio of {technique} has '{only}' in its name; its ratios: {known}",
+                    word, only, fmt::format("{}", fmt::join(names, "; ")));
     return claims;
 }
 
@@ -126,15 +128,19 @@ Result<std::unique_ptr<Session>> open_capture(const BenchArguments& options, std
 }
 
 template <typename Bench>
-Result<void> print(const BenchArguments& options, const Bench& made) {
-    to_stdout("{}", options.json ? as_json(made) : as_text(made));
-    if (!options.output.empty())
-        if (const auto done = write_whole_file(options.output, as_json(made)); !done) return done;
-    return made.stopped.empty() ? Result<void>() : fail_unnamed(Fault::stopped, "{}", made.stopped);
+Result<void> print(const BenchArguments& options, Bench made) {
+    made.date = date_of_output();
+    write_stdout(in_format(printed_format(options.output), made));
+    const std::string text = in_format(file_format(options.output, OutputFormat::json), made);
+    if (!options.output.file.empty())
+        if (const auto done = write_whole_file(options.output.file, text); !done) return done;
+    return made.stopped.empty() ? Result<void>() : fail(Fault::stopped, "session.stopped", "{progress}", made.stopped);
 }
 
 Result<void> bench_the_device(const BenchArguments& options) {
-    if (!options.only.empty()) return fail_unnamed(Fault::usage, "--only selects ratios of a technique; 'device' has none");
+    if (!options.only.empty())
+        return fail(Fault::usage, "options.not_applicable", "{option} does not apply: {reason}", "--only",
+                    "it selects ratios of a technique, and 'device' has none");
     auto request = request_of(options.choices);
     if (!request) return request.error();
     request->variant.frame = options.frame;
@@ -155,10 +161,12 @@ Result<void> bench_the_device(const BenchArguments& options) {
                      {.request = *request, .repeats = options.repeats, .progress = progress_line(), .stop = signal.token()});
     if (!made) return made.error();
     made->scene = is_scenario ? std::string(device_scenario) : options.open.capture.filename().string();
-    return print(options, *made);
+    if (!is_scenario) made->capture_id = (*session)->capture_id();
+    return print(options, *std::move(made));
 }
 
 Result<void> bench(const BenchArguments& options) {
+    if (const auto fits = check_ending(options.output); !fits) return fits;
     if (options.word == the_device) return bench_the_device(options);
     auto claims = claims_of(options.word, options.only);
     if (!claims) return claims.error();
@@ -170,8 +178,9 @@ Result<void> bench(const BenchArguments& options) {
     if (!session) return session.error();
     LeftOutNotes notes;
     for (const Claim& claim : *claims) {
-        const auto way = variant_of(*claim.technique, claim.ratio->of, claim.base);
-        if (way) static_cast<void>(notes.tell(**session, way->request, base->choices));  // its row will say why it has no plan
+        const auto variant = variant_of(*claim.technique, claim.ratio->of, claim.base);
+        if (variant)
+            static_cast<void>(notes.tell(**session, variant->request, base->choices));  // its row will say why it has no plan
     }
     const StopAtSignal signal;
     (*session)->stop_when(signal.token());
@@ -202,8 +211,8 @@ std::function<Result<void>()> declare_bench(CLI::App& app) {
         ->excludes(capture);
     app.add_option("--repeats", options->repeats, "timed repeats of each side of a ratio after a warm-up, default 7")
         ->check(from_to(1, 1000));
-    app.add_flag("--json", options->json, "print JSON instead of text");
-    app.add_option("-o,--output", options->output, "write the JSON to this file, too")->type_name(output_file);
+    add_formats(app, options->output);
+    add_output_file(app, options->output, "also write to this file, in the format of its ending: .json, .csv, .md or .txt");
     return [options] { return bench(*options); };
 }
 

@@ -11,6 +11,7 @@
 #include "replay/cli/given_options.h"
 #include "replay/cli/left_out.h"
 #include "replay/cli/output_picture.h"
+#include "replay/cli/table_output.h"
 #include "replay/cli/verb_options.h"
 #include "replay/difference/comparison.h"
 #include "replay/difference/picture.h"
@@ -33,7 +34,8 @@ struct DiffArguments {
     SideOptions a, b;
     ChoiceOptions both;  ///< but for --use and --set, which are B's
     DeviceChoice device;
-    bool allow_partial = false, json = false;
+    bool allow_partial = false;
+    TableOutput printed;
     std::string frames, rerun;
     ErrorLimits limits;
     std::filesystem::path junit, folder;
@@ -66,33 +68,34 @@ class Pictures {
 public:
     explicit Pictures(const DiffArguments& options) : options_(options) {}
 
-    Result<void> see(std::size_t frame, const ActComparison& act, const ImageComparison& made, const HostImage& a,
+    Result<void> see(std::size_t frame, const PassComparison& pass, const ImageComparison& made, const HostImage& a,
                      const HostImage& b) {
         if (options_.folder.empty()) return {};
-        const std::string name = case_name(frame, act, made);
+        const std::string name = case_name(frame, pass, made);
         const auto path = options_.folder / fmt::format("{}.{}.diff.png", options_.a.file.stem().string(), name);
         if (made.verdict < Verdict::warning) {
             if (const auto free = check_not_kept(path); !free) return free;
             std::error_code problem;
             if (std::filesystem::remove(path, problem)) to_stderr("removed {}\n", path.string());
-            return problem ? Result<void>(fail_unnamed(Fault::usage, "cannot remove {}: {}", path.string(), problem.message()))
+            return problem ? Result<void>(fail(Fault::usage, "file.cannot_remove", "cannot remove {file}: {reason}",
+                                               path.string(), problem.message()))
                            : Result<void>();
         }
         const auto side = [&](const SideOptions& of, const std::string& choice) {
-            return act.choice_a == act.choice_b ? asked_of(of) : without_defaults(choice);
+            return pass.choice_a == pass.choice_b ? asked_of(of) : without_defaults(choice);
         };
         const Canvas canvas =
             difference_picture(made, a, b,
-                               {fmt::format("frame {}  {}: {}  {}", frame, act.label, made.image,
+                               {fmt::format("frame {}  {}: {}  {}", frame, pass.label, made.image,
                                             made.verdict == Verdict::over ? "over tolerance" : strata::name(made.verdict)),
-                                side(options_.a, act.choice_a), side(options_.b, act.choice_b)});
+                                side(options_.a, pass.choice_a), side(options_.b, pass.choice_b)});
         if (const auto done = write_png(path, canvas); !done) return done;
         to_stderr("wrote {}\n", path.string());
-        artefacts_[name] = path.string();
+        artifacts_[name] = path.string();
         return {};
     }
 
-    const std::map<std::string, std::string>& artefacts() const { return artefacts_; }
+    const std::map<std::string, std::string>& artifacts() const { return artifacts_; }
 
 private:
     /// What a side is besides a pass that both sides run alike: its file, or what it was asked to use of the file that both have.
@@ -106,12 +109,12 @@ private:
     }
 
     const DiffArguments& options_;
-    std::map<std::string, std::string> artefacts_;
+    std::map<std::string, std::string> artifacts_;
 };
 
 SeeImages seeing(Pictures& pictures, std::size_t frame) {
-    return [&pictures, frame](const ActComparison& act, const ImageComparison& made, const HostImage& a, const HostImage& b) {
-        return pictures.see(frame, act, made, a, b);
+    return [&pictures, frame](const PassComparison& pass, const ImageComparison& made, const HostImage& a, const HostImage& b) {
+        return pictures.see(frame, pass, made, a, b);
     };
 }
 
@@ -148,8 +151,9 @@ Result<void> compare_captures(const DiffArguments& options, Pictures& pictures, 
     comparison.a = describe(options.a, a);
     comparison.b = describe(options.b, b);
     if (options.frames.empty() && a.frame_count() != b.frame_count())
-        return fail_unnamed(Fault::usage, "A has {} and B {}; choose with --frames", plural(a.frame_count(), "frame"),
-                            b.frame_count());
+        return fail(Fault::usage, "diff.frame_counts_differ",
+                    "the captures have different numbers of frames, A {frames_a} and B {frames_b}; choose frames with --frames",
+                    a.frame_count(), b.frame_count());
     const auto frames = frame_indices(options.frames, std::min(a.frame_count(), b.frame_count()));
     if (!frames) return frames.error();
     const Progress progress = progress_line();
@@ -160,7 +164,7 @@ Result<void> compare_captures(const DiffArguments& options, Pictures& pictures, 
         const auto told = notes.tell(a, *request_a).and_then([&] { return notes.tell(b, *request_b); });
         if (!told) return told;
         auto made = compare_runs({a, *request_a}, {b, *request_b}, options.limits, seeing(pictures, frame));
-        if (!made) return fail_unnamed(made.error().fault, "frame {}: {}", frame, made.error().sentence);
+        if (!made) return within(made.error(), "frame {frame}", frame);
         comparison.frames.push_back(*std::move(made));
     }
     return {};
@@ -208,8 +212,8 @@ Result<void> compare_with_images(const DiffArguments& options, const MixedSides&
                                  Comparison& comparison) {
     const std::string file = sides.file.file.string();
     if (kind_of(sides.file.file) == FileKind::png)
-        return fail_unnamed(
-            Fault::usage, "{} is a PNG; a capture can only be compared with the EXR of a replay, whose images have names", file);
+        return fail(Fault::usage, "diff.png_with_capture",
+                    "{file} is a PNG; a capture can only be compared with the EXR of a replay, whose images have names", file);
     MemoryBudget budget(options.device.memory_budget);
     const auto images = read_images(sides.file.file, budget);
     if (!images) return images.error();
@@ -222,9 +226,9 @@ Result<void> compare_with_images(const DiffArguments& options, const MixedSides&
     const auto frames = frame_indices(options.frames, (*session)->frame_count());
     if (!frames) return frames.error();
     if (frames->size() != 1)
-        return fail_unnamed(Fault::usage,
-                            "{} has the images of one frame and the capture has {} frames; choose one with --frames", file,
-                            frames->size());
+        return fail(Fault::usage, "diff.choose_frame",
+                    "{file} has the images of one frame, and {frames} frames of the capture are chosen; choose one with --frames",
+                    file, frames->size());
     request->variant.frame = frames->front();
     request->outputs.clear();
     for (const auto& [name, image] : *images) request->outputs.push_back(name);
@@ -245,7 +249,8 @@ Result<void> compare_with_images(const DiffArguments& options, const MixedSides&
 
 Result<void> compare_files(const DiffArguments& options, Pictures& pictures, Comparison& comparison) {
     if (kind_of(options.a.file) != kind_of(options.b.file))
-        return fail_unnamed(Fault::usage, "an EXR holds linear light and a PNG display values; compare two files of one kind");
+        return fail(Fault::usage, "diff.file_types_differ",
+                    "an EXR holds linear light and a PNG display values; compare two files of one type");
     MemoryBudget budget(options.device.memory_budget);
     const auto a = read_images(options.a.file, budget);
     if (!a) return a.error();
@@ -273,12 +278,12 @@ Result<void> compare(const DiffArguments& options, Pictures& pictures, Compariso
 /// The first thing that is over tolerance, as a sentence.
 Error over_tolerance(const Comparison& comparison) {
     for (const FrameComparison& frame : comparison.frames)
-        for (const ActComparison& act : frame.acts)
-            for (const ImageComparison& image : act.images)
+        for (const PassComparison& pass : frame.passes)
+            for (const ImageComparison& image : pass.images)
                 if (image.verdict == Verdict::over)
-                    return fail_unnamed(Fault::over_tolerance, "frame {}: {}: {}: {}", frame.frame, act.label, image.image,
-                                        image.reason);
-    return fail_unnamed(Fault::over_tolerance, "over tolerance");
+                    return fail(Fault::over_tolerance, "diff.over_tolerance", "frame {frame}: {pass}: {image}: {reason}",
+                                frame.frame, pass.label, image.image, image.reason);
+    return fail(Fault::over_tolerance, "diff.over_tolerance", "over tolerance");
 }
 
 /// Whether something is said of B: the same two ways of replaying give the same, but a device may be compared with itself.
@@ -292,11 +297,11 @@ Result<void> check_options(const DiffArguments& options) {
     const CLI::App& app = *options.app;
     const auto is_image = [](const std::filesystem::path& file) { return !file.empty() && kind_of(file) != FileKind::capture; };
     if (options.b.file.empty() && is_image(options.a.file))
-        return fail_unnamed(Fault::usage, "{} is an image and cannot be replayed: name a second image to compare it with",
-                            options.a.file.string());
+        return fail(Fault::usage, "diff.nothing_to_compare",
+                    "{file} is an image and cannot be replayed: name a second image to compare it with", options.a.file.string());
     if (options.b.file.empty() && !has_a_side_b(options))
-        return fail_unnamed(Fault::usage,
-                            "nothing to compare A with: name a second file, or what B does differently (--use, --set, --gpu-b)");
+        return fail(Fault::usage, "diff.nothing_to_compare",
+                    "there is nothing to compare A with: name a second file, or options of B (--use, --set, --gpu-b)");
     const bool a_is_image = is_image(options.a.file), b_is_image = is_image(options.b.file);
     if (b_is_image)
         if (const auto fits = check_not_given(app, {"--use", "--set", "--gpu-b"}, "B is an image and not replayed"); !fits)
@@ -316,9 +321,10 @@ Result<void> diff(DiffArguments options) {
     Pictures pictures(options);
     Comparison comparison{.limits = options.limits, .tool = fmt::format("strata {}", tool_revision), .rerun = options.rerun};
     if (const auto done = compare(options, pictures, comparison); !done) return done;
-    to_stdout("{}", options.json ? as_json(comparison) : as_text(comparison));
+    comparison.date = date_of_output();
+    write_stdout(in_format(printed_format(options.printed), comparison));
     if (!options.junit.empty())
-        if (const auto done = write_whole_file(options.junit, as_junit(comparison, pictures.artefacts())); !done) return done;
+        if (const auto done = write_whole_file(options.junit, as_junit(comparison, pictures.artifacts())); !done) return done;
     return verdict(comparison) == Verdict::over ? Result<void>(over_tolerance(comparison)) : Result<void>();
 }
 
@@ -345,20 +351,22 @@ void add_sides(CLI::App& app, DiffArguments& options) {
 }
 
 /// "START,STOP" or "START,STOP,COUNT".
-std::string read_exposures(const std::string& text, std::optional<ExposureRange>& exposures) {
+void read_exposures(const std::string& text, std::optional<ExposureRange>& exposures) {
+    const auto refuse = [&](const char* form) {
+        throw RefusedValue{fail(Fault::usage, "options.malformed", "takes {form}, not '{value}'", form, text)};
+    };
     std::vector<double> numbers;
     for (const std::string& part : CLI::detail::split(text, ',')) {
         double number = 0;
-        if (!CLI::detail::lexical_cast(part, number) || !(std::abs(number) <= 100)) return "expected numbers from -100 to 100";
+        if (!CLI::detail::lexical_cast(part, number) || !(std::abs(number) <= 100)) refuse("exposures from -100 to 100");
         numbers.push_back(number);
     }
-    if (numbers.size() < 2 || numbers.size() > 3) return "expected START,STOP or START,STOP,COUNT";
+    if (numbers.size() < 2 || numbers.size() > 3) refuse("START,STOP or START,STOP,COUNT");
     exposures = exposure_range(numbers[0], numbers[1]);
-    if (numbers[1] < numbers[0]) return "the first exposure must not be larger than the last";
-    if (numbers.size() == 2) return "";
-    if (numbers[2] < 1 || numbers[2] != std::floor(numbers[2])) return "the number of exposures must be an integer from 1 to 100";
+    if (numbers[1] < numbers[0]) refuse("a STOP that is not below START");
+    if (numbers.size() == 2) return;
+    if (numbers[2] < 1 || numbers[2] != std::floor(numbers[2])) refuse("a whole COUNT from 1 to 100");
     exposures->count = static_cast<std::uint32_t>(numbers[2]);
-    return "";
 }
 
 void add_flip(CLI::App& app, FlipOptions& flip) {
@@ -376,7 +384,10 @@ void add_flip(CLI::App& app, FlipOptions& flip) {
            "exposures for FLIP of radiance in stops, as START,STOP or START,STOP,COUNT; default: from the brightest to "
            "the median pixel of A, one per stop")
         ->type_name("LIST")
-        ->check([&flip](const std::string& text) { return read_exposures(text, flip.exposures); });
+        ->check([&flip](const std::string& text) {
+            read_exposures(text, flip.exposures);
+            return std::string();
+        });
 }
 
 void add_limits(CLI::App& app, ErrorLimits& limits) {
@@ -412,7 +423,7 @@ std::function<Result<void>()> declare_diff(CLI::App& app) {
     app.add_option("-o,--output", options->folder,
                    "write pictures of the differences to this folder; outdated ones in it are removed")
         ->type_name(output_folder);
-    app.add_flag("--json", options->json, "print JSON instead of text");
+    add_formats(app, options->printed);
     return [options, &app] {
         options->rerun = command_line(app);
         options->app = &app;

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "passes/frame_images.h"
 #include "replay/cli/export_kinds.h"
 #include "replay/cli/given_options.h"
 #include "replay/progress_line.h"
@@ -26,15 +27,16 @@ constexpr Kind kinds[] = {
 
 Result<void> run(const ExportOptions& options, const CLI::App& app) {
     const Kind* chosen = nullptr;
-    std::string flags, given;
+    std::string flags;
     for (const Kind& kind : kinds) {
         flags += fmt::format("{}{}", flags.empty() ? "" : ", ", kind.flag);
         if (!kind.wanted(options)) continue;
-        given += fmt::format("{}{}", given.empty() ? "" : " and ", kind.flag);
-        if (chosen) return fail_unnamed(Fault::usage, "one export makes one file: {} cannot be asked for together", given);
+        if (chosen)
+            return fail(Fault::usage, "options.excluded", "{option} cannot be combined with {other}: an export is one file",
+                        chosen->flag, kind.flag);
         chosen = &kind;
     }
-    if (!chosen) return fail_unnamed(Fault::usage, "choose what to export: one of {}", flags);
+    if (!chosen) return fail(Fault::usage, "options.missing", "choose what to export with one of {option}", flags);
     if (!chosen->replays) {
         const auto fits = check_not_given(app, {"--use", "--set", "--force", "--samples", "--gpu", "--without", "--validation"},
                                           fmt::format("{} exports the frame as it was recorded", chosen->flag));

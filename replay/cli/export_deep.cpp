@@ -5,6 +5,7 @@
 
 #include "capture_format/container/whole_file.h"
 #include "passes/indirect/volume_light.h"
+#include "passes/stage_input.h"
 #include "replay/cli/export_kinds.h"
 #include "replay/cli/left_out.h"
 #include "replay/cli/run_json.h"
@@ -25,14 +26,15 @@ constexpr std::pair<std::string_view, Transmittance> transmittances[] = {
 
 Result<std::uint32_t> sample_of(const ExportOptions& options, std::uint32_t samples) {
     if (!options.sample && samples > 1)
-        return fail_unnamed(Fault::usage,
-                            "a pixel of this frame has {} samples and a deep image one list: choose --sample 0 to {}, or "
-                            "--samples 1",
-                            samples, samples - 1);
+        return fail(
+            Fault::usage, "export.choose_sample",
+            "a pixel of this frame has {samples} samples and a pixel of a deep image one list: pass --sample 0 to {last}, or "
+            "--samples 1",
+            samples, samples - 1);
     const std::uint32_t sample = options.sample.value_or(0);
     if (sample >= samples)
-        return fail_unnamed(Fault::usage, "a pixel of this frame has {}, numbered from 0; there is no sample {}",
-                            plural(samples, "sample"), sample);
+        return fail(Fault::usage, "frame.no_sample", "there is no sample {sample}: a pixel has {samples}, numbered from 0",
+                    sample, samples);
     return sample;
 }
 

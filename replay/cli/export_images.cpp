@@ -1,4 +1,6 @@
 // strata export --image: what a stage gave, or a debug view.
+#include "capture_format/reader.h"
+#include "passes/frame_images.h"
 #include "replay/cli/export_kinds.h"
 #include "replay/cli/left_out.h"
 #include "replay/cli/output_picture.h"
@@ -9,7 +11,8 @@ namespace {
 
 Result<void> write_picture(const ExportOptions& options, const Run& run) {
     if (run.images.size() != 1)
-        return fail_unnamed(Fault::usage, "a .png holds one image, not {}; an .exr holds them all", run.images.size());
+        return fail(Fault::usage, "export.one_image_per_png", "a .png holds one image, not {images}; write them to an .exr",
+                    run.images.size());
     const std::string& image = run.images.begin()->first;
     if (!options.caption) return write_plain_picture(options.output, run, image);
     return write_output_picture(options.output, run, image,
@@ -21,9 +24,11 @@ Result<void> write_picture(const ExportOptions& options, const Run& run) {
 Result<void> export_images(const ExportOptions& options) {
     const std::string kind = options.output.extension().string();
     if (kind != ".exr" && kind != ".png")
-        return fail_unnamed(Fault::usage, "images are written as .exr or .png, not as '{}'", options.output.filename().string());
+        return fail(Fault::usage, "output.unknown_ending", "images are written as {endings}, not as '{file}'", ".exr or .png",
+                    options.output.filename().string());
     if (options.caption && kind == ".exr")
-        return fail_unnamed(Fault::usage, "--caption is for a .png; an .exr holds texels alone");
+        return fail(Fault::usage, "options.not_applicable", "{option} does not apply: {reason}", "--caption",
+                    "an .exr holds texels alone; write a .png");
     auto request = request_of(options.choices);
     if (!request) return request.error();
     request->variant.frame = options.frame;
@@ -35,9 +40,12 @@ Result<void> export_images(const ExportOptions& options) {
     if (!run) return run.error();
     for (const std::string& name : options.images)
         if (run->tables.contains(name))
-            return fail_unnamed(Fault::usage, "'{}' is a table: strata replay --outputs {} --json prints it", name, name);
+            return fail(Fault::usage, "export.is_table",
+                        "'{output}' is a table; strata replay prints it with --outputs and --json", name);
     for (const std::string& name : options.images)
-        if (!run->images.contains(name)) return fail_unnamed(Fault::usage, "the frame has no '{}': its stage is left out", name);
+        if (!run->images.contains(name))
+            return fail(Fault::usage, "frame.no_output", "frame {frame} has no '{output}': its stage is left out", options.frame,
+                        name);
     if (kind == ".png") return write_picture(options, *run);
     return write_exr(options.output, run->images, provenance(**session, *request, *run));
 }

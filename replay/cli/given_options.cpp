@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -12,6 +13,7 @@
 #include <CLI/CLI.hpp>
 
 #include "capture_format/nearest_name.h"
+#include "replay/cli/renamed_options.h"
 
 namespace strata {
 namespace {
@@ -25,13 +27,16 @@ std::string option_in(std::string_view argument) {
 
 Result<void> check_option(const CLI::App& app, const std::string& option) {
     if (option.empty() || app.get_option_no_throw(option)) return {};
+    for (const auto& [before, now] : renamed_options)
+        if (option == before && app.get_option_no_throw(std::string(now)))
+            return fail(Fault::usage, "usage.renamed_option", "{option} has another name: pass {name}", before, now);
     std::vector<std::string> names;
     for (const CLI::Option* known : app.get_options())
         for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
     const std::vector<std::string_view> known(names.begin(), names.end());
     const bool is_program = app.get_parent() == nullptr;
-    return fail_unnamed(Fault::usage, "{} has no option {}{}", is_program ? "strata" : "strata " + app.get_name(), option,
-                        did_you_mean(option, known));
+    return fail(Fault::usage, "options.unknown", "{verb} has no option {option}{suggestion}",
+                is_program ? "strata" : "strata " + app.get_name(), option, did_you_mean(option, known));
 }
 
 Result<const CLI::App*> find_verb(const CLI::App& program, const std::string& name) {
@@ -41,7 +46,7 @@ Result<const CLI::App*> find_verb(const CLI::App& program, const std::string& na
         if (!verb->get_group().empty()) names.push_back(verb->get_name());
     }
     const std::vector<std::string_view> known(names.begin(), names.end());
-    return fail_unnamed(Fault::usage, "there is no verb '{}'{}", name, did_you_mean(name, known));
+    return fail(Fault::usage, "options.unknown_verb", "there is no verb '{verb}'{suggestion}", name, did_you_mean(name, known));
 }
 
 /// Parses the digits that the text begins with; what follows them, or nothing where there are none or too many.
@@ -54,23 +59,22 @@ std::optional<std::string> rest_after_number(std::string_view text, Whole& value
 
 /// A whole number; it is written anew, so that a 0 before it does not make it octal.
 template <typename Whole>
-std::string problem_of_whole(std::string& text) {
+void check_whole(std::string& text) {
     Whole value = 0;
     const auto rest = rest_after_number(text, value);
     if (!rest || !rest->empty())
-        return fmt::format("'{}' is not a whole number from {} to {}", text, std::numeric_limits<Whole>::min(),
-                           std::numeric_limits<Whole>::max());
+        throw RefusedValue{fail(Fault::usage, "options.not_a_number", "takes a whole number from {low} to {high}, not '{value}'",
+                                std::numeric_limits<Whole>::min(), std::numeric_limits<Whole>::max(), text)};
     text = std::to_string(value);
-    return {};
 }
 
 /// Bytes with or without a unit, which is CLI11's to know.
-std::string problem_of_size(std::string& text) {
+void check_size(std::string& text) {
     std::uint64_t value = 0;
     const auto rest = rest_after_number(text, value);
-    if (!rest || value == 0) return fmt::format("'{}' is not a size above 0 like 256MiB", text);
+    if (!rest || value == 0)
+        throw RefusedValue{fail(Fault::usage, "options.not_a_size", "takes a size above 0 like 256MiB, not '{value}'", text)};
     text = std::to_string(value) + *rest;
-    return {};
 }
 
 /// Of a text that is a number: refuse_what_is_no_number() comes first.
@@ -80,11 +84,37 @@ double number_in(const std::string& text) {
     return value;
 }
 
-std::string problem_of_real(std::string& text) {
+void check_real(std::string& text) {
     double value = 0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool is_number = problem == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-    return is_number ? std::string() : fmt::format("'{}' is not a finite number", text);
+    if (!is_number) throw RefusedValue{fail(Fault::usage, "options.not_a_number", "takes a finite number, not '{value}'", text)};
+}
+
+/// A validator of CLI11, which returns why it refuses a value, from a check that throws a RefusedValue.
+CLI::Validator validator(std::function<void(std::string&)> check, std::string help = "") {
+    return CLI::Validator([check = std::move(check)](std::string& text) { return check(text), std::string(); }, std::move(help));
+}
+
+/// Null behind the last one.
+CLI::Validator* validator_of(CLI::Option& option, int index) {
+    try {
+        return option.get_validator(index);
+    } catch (const CLI::OptionNotFound&) {
+        return nullptr;
+    }
+}
+
+/// A validator does not know of which option it checks the values.
+void name_in_errors(CLI::Option& option) {
+    for (int i = 0; CLI::Validator* each = validator_of(option, i); ++i)
+        each->operation([check = *each, &option](std::string& text) {
+            try {
+                return check(text);
+            } catch (const RefusedValue& refused) {
+                throw RefusedValue{within(refused.error, "{option}", option.get_name())};
+            }
+        });
 }
 
 }  // namespace
@@ -92,7 +122,8 @@ std::string problem_of_real(std::string& text) {
 Result<void> check_names(const CLI::App& program, std::span<const std::string> arguments) {
     const CLI::App* verb = &program;
     if (std::ranges::count(arguments, "--version") > 0 && arguments.size() > 1)
-        return fail_unnamed(Fault::usage, "--version is given alone, without a verb and other options");
+        return fail(Fault::usage, "options.excluded", "{option} cannot be combined with {other}", "--version",
+                    "a verb or another option");
     for (const std::string& argument : arguments) {
         if (argument == "--") return {};
         if (verb == &program && !argument.starts_with('-')) {
@@ -109,54 +140,57 @@ Result<void> check_names(const CLI::App& program, std::span<const std::string> a
 void refuse_what_is_no_number(CLI::App& verb) {
     for (CLI::Option* option : verb.get_options([](CLI::Option*) { return true; })) {
         const std::string type = option->get_type_name();
-        const auto check = [&](std::string (*problem)(std::string&)) { option->transform(CLI::Validator(problem, "")); };
-        if (type.starts_with("FLOAT")) check(problem_of_real);
-        else if (type.starts_with("UINT:SIZE")) check(problem_of_size);
-        else if (type.starts_with("UINT")) check(problem_of_whole<std::uint64_t>);
-        else if (type.starts_with("INT")) check(problem_of_whole<std::int64_t>);
+        const auto check = [&](void (*each)(std::string&)) { option->transform(validator(each)); };
+        if (type.starts_with("FLOAT")) check(check_real);
+        else if (type.starts_with("UINT:SIZE")) check(check_size);
+        else if (type.starts_with("UINT")) check(check_whole<std::uint64_t>);
+        else if (type.starts_with("INT")) check(check_whole<std::int64_t>);
+        name_in_errors(*option);
     }
 }
 
 CLI::Validator from_to(double low, double high) {
-    return CLI::Validator(
-        [=](std::string& text) {
-            const double value = number_in(text);
-            return value >= low && value <= high ? std::string()
-                                                 : fmt::format("takes a number from {} to {}, not {}", low, high, text);
-        },
-        fmt::format("{} to {}", low, high));
+    const auto check = [=](const std::string& text) {
+        const double value = number_in(text);
+        if (!(value >= low && value <= high))
+            throw RefusedValue{
+                fail(Fault::usage, "options.out_of_range", "takes a number from {low} to {high}, not {value}", low, high, text)};
+    };
+    return validator(check, fmt::format("{} to {}", low, high));
 }
 
 CLI::Validator one_of(std::vector<std::string> words) {
     const std::string named = fmt::format("{{{}}}", fmt::join(words, ","));
-    return CLI::Validator(
-        [words = std::move(words)](std::string& text) {
-            if (std::ranges::count(words, text) > 0) return std::string();
-            const std::vector<std::string_view> known(words.begin(), words.end());
-            return fmt::format("takes {}, not '{}'{}", fmt::join(words, " or "), text, did_you_mean(text, known));
-        },
-        named);
+    const auto check = [words = std::move(words)](const std::string& text) {
+        if (std::ranges::count(words, text) > 0) return;
+        const std::vector<std::string_view> known(words.begin(), words.end());
+        throw RefusedValue{fail(Fault::usage, "options.not_a_choice", "takes {choices}, not '{value}'{suggestion}",
+                                fmt::format("{}", fmt::join(words, " or ")), text, did_you_mean(text, known))};
+    };
+    return validator(check, named);
 }
 
 CLI::Validator not_negative() {
-    return CLI::Validator(
-        [](std::string& text) {
-            return number_in(text) >= 0 ? std::string() : fmt::format("takes a number of 0 or more, not {}", text);
-        },
-        "");
+    return validator([](const std::string& text) {
+        if (!(number_in(text) >= 0))
+            throw RefusedValue{
+                fail(Fault::usage, "options.out_of_range", "takes a number of {low} or more, not {value}", 0, text)};
+    });
 }
 
 CLI::Validator positive() {
-    return CLI::Validator(
-        [](std::string& text) {
-            return number_in(text) > 0 ? std::string() : fmt::format("takes a number above 0, not {}", text);
-        },
-        "");
+    return validator([](const std::string& text) {
+        if (!(number_in(text) > 0))
+            throw RefusedValue{fail(Fault::usage, "options.out_of_range", "takes a number above {low}, not {value}", 0, text)};
+    });
 }
 
 CLI::Validator one_or_four() {
-    return CLI::Validator(
-        [](std::string& text) { return text == "1" || text == "4" ? "" : fmt::format("takes 1 or 4, not {}", text); }, "{1,4}");
+    const auto check = [](const std::string& text) {
+        if (text != "1" && text != "4")
+            throw RefusedValue{fail(Fault::usage, "options.not_a_choice", "takes {choices}, not '{value}'", "1 or 4", text)};
+    };
+    return validator(check, "{1,4}");
 }
 
 CLI::Validator sample_index() { return from_to(0, 3); }
@@ -166,14 +200,15 @@ Result<void> check_values(const CLI::App& verb) {
         if (option->get_items_expected_min() == 0) continue;  // flags, and options whose value may be left out
         for (const std::string& value : option->results())
             if (value.find_first_not_of(" \t\r\n") == value.npos)
-                return fail_unnamed(Fault::usage, "{} is given an empty value", option->get_name());
+                return fail(Fault::usage, "options.empty_value", "the value of {option} is empty", option->get_name());
     }
     return {};
 }
 
 Result<void> check_not_given(const CLI::App& verb, std::initializer_list<const char*> options, std::string_view why) {
     for (const char* name : options)
-        if (verb.get_option(name)->count() > 0) return fail_unnamed(Fault::usage, "{} does not apply: {}", name, why);
+        if (verb.get_option(name)->count() > 0)
+            return fail(Fault::usage, "options.not_applicable", "{option} does not apply: {reason}", name, why);
     return {};
 }
 

@@ -15,8 +15,14 @@ namespace strata {
 Result<void> check_names(const CLI::App& program, std::span<const std::string> arguments);
 
 /// From now on the verb's options for numbers refuse what is no finite decimal number or does not fit (nan, inf, 0x10, 2^64, -1
-/// where nothing is below 0), which CLI11 2.1 takes or wraps around. To be called when all options are declared.
+/// where nothing is below 0), which CLI11 2.1 takes or wraps around; and validators' errors name the option. To be called when
+/// all options are declared.
 void refuse_what_is_no_number(CLI::App& verb);
+
+/// What validators throw of a value that they refuse. refuse_what_is_no_number() adds the option's name.
+struct RefusedValue {
+    Error error;
+};
 
 /// For options whose number has bounds, which are in the help and in the sentence. Every option for a whole number of less than
 /// 64 bits needs some: CLI11 2.1 says "Could not convert" of a number that does not fit.

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "passes/graph/describe.h"
+#include "passes/stages.h"
 #include "replay/cli/left_out.h"
 #include "replay/cli/verb_options.h"
 #include "replay/json_text.h"

@@ -119,8 +119,8 @@ void print_warnings(const std::vector<std::string>& warnings) {
 Result<void> import_deep_image(const ImportArguments& options) {
     DeepOptions of_deep = options.of_deep;
     if (!options.window.empty() && (options.window[2] < 1 || options.window[3] < 1))
-        return fail_unnamed(Fault::usage, "--window takes a width and a height above 0, not {} x {}", options.window[2],
-                            options.window[3]);
+        return fail(Fault::usage, "options.out_of_range", "{option} takes a width and a height above 0, not {width} x {height}",
+                    "--window", options.window[2], options.window[3]);
     of_deep.memory_budget = options.memory_budget;
     if (!options.window.empty())
         of_deep.window = DeepWindow{options.window[0], options.window[1], static_cast<std::uint32_t>(options.window[2]),
@@ -170,8 +170,8 @@ Result<void> import(const ImportArguments& options, const CLI::App& app) {
             !fits)
             return fits;
     if (is_open_exr(options.scene))
-        return fail_unnamed(Fault::usage, "{} is an OpenEXR image: pass --deep to import one with deep samples",
-                            options.scene.string());
+        return fail(Fault::usage, "import.needs_deep", "{file} is an OpenEXR image: pass --deep to import one with deep samples",
+                    options.scene.string());
     const auto extent = extent_of(options.size);
     if (!extent) return extent.error();
     GltfOptions gltf = options.gltf;

@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "capture_format/check_capture.h"
-#include "capture_format/frame_features.h"
+#include "capture_format/reader.h"
+#include "passes/stages.h"
 #include "replay/cli/verb_options.h"
+#include "replay/error_text.h"
 #include "replay/expectations/expectation.h"
 #include "replay/json_text.h"
 #include "replay/plural.h"
@@ -92,8 +94,8 @@ Result<void> info(const InfoArguments& options) {
     if (!capture) return capture.error();
     const std::size_t count = capture->frame_count();
     if (options.frame >= count)
-        return fail_unnamed(Fault::usage, "the capture has {}, numbered from 0; there is no frame {}", plural(count, "frame"),
-                            options.frame);
+        return fail(Fault::usage, "capture.no_frame", "there is no frame {frame}: the capture has {frames}, numbered from 0",
+                    options.frame, count);
     const auto frame = capture->frame(options.frame);
     if (!frame) return frame.error();
     if (options.json) write_stdout(json_text(json_of(*capture, *frame, options.frame)));
@@ -106,8 +108,8 @@ Result<void> check_texts(const Capture& capture) {
     const auto expectations = expectations_of(capture);
     if (!expectations) return expectations.error();
     for (const Expectation& expectation : *expectations)
-        for (const ExpectedAct& act : expectation.acts)
-            for (const ExpectedImage& image : act.images) {
+        for (const ExpectedPass& pass : expectation.passes)
+            for (const ExpectedImage& image : pass.images) {
                 if (image.texels.empty()) continue;
                 if (const auto kept = capture.expected_image(image.texels, bytes(image.shape)); !kept) return kept.error();
             }
@@ -118,18 +120,17 @@ Result<Capture> validated(const InfoArguments& options) {
     auto capture = open_capture(options.capture, Partial::refused, options.memory_budget);
     if (!capture) return capture;
     if (const auto sound = check_capture(options.capture, options.memory_budget); !sound) return sound.error();
-    if (const auto sound = check_texts(*capture); !sound)
-        return fail_unnamed(sound.error().fault, "{}: {}", options.capture.string(), sound.error().sentence);
+    if (const auto sound = check_texts(*capture); !sound) return within(sound.error(), "{capture}", options.capture.string());
     return capture;
 }
 
 Result<void> validate(const InfoArguments& options) {
     const auto capture = validated(options);
     if (options.json) {
-        ordered_json json{{"schema", "strata.validate"}, {"schema_version", 1}};
+        ordered_json json{{"schema", "strata.validate"}, {"schema_version", 2}};
         if (capture) json.update({{"capture", capture->id()}, {"frames", capture->frame_count()}});
         json["is_sound"] = bool(capture);
-        if (!capture) json["problem"] = capture.error().sentence;
+        if (!capture) json["error"] = json_of(capture.error());
         write_stdout(json_text(json));
     }
     if (!capture) return capture.error();

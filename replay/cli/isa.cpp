@@ -8,9 +8,12 @@
 #include <CLI/CLI.hpp>
 
 #include "capture_format/container/whole_file.h"
+#include "capture_format/reader.h"
+#include "passes/technique.h"
 #include "replay/cli/given_options.h"
 #include "replay/cli/left_out.h"
 #include "replay/cli/run_json.h"
+#include "replay/cli/table_output.h"
 #include "replay/cli/verb_options.h"
 #include "replay/isa/compile_elsewhere.h"
 #include "replay/isa/isa_report.h"
@@ -26,7 +29,8 @@ struct IsaArguments {
     std::vector<std::string> models;
     std::size_t frame = 0;
     std::filesystem::path dump, tiles;
-    bool json = false, no_run = false;
+    TableOutput output;
+    bool no_run = false;
 };
 
 /// A null stands for the device itself.
@@ -36,9 +40,10 @@ Result<std::vector<const GpuModel*>> models_of(const IsaArguments& options) {
         const auto found = find_gpu_model(name);
         if (!found) return found.error();
         if ((*found)->family.empty())
-            return fail_unnamed(Fault::usage, "RADV does not compile for {}; choose a device with --gpu, without --gpu-model",
-                                name);
-        if (std::ranges::count(models, *found) > 0) return fail_unnamed(Fault::usage, "--gpu-model gives '{}' twice", name);
+            return fail(Fault::usage, "isa.model_not_in_radv",
+                        "RADV does not compile for {model}; choose a device with --gpu, without --gpu-model", name);
+        if (std::ranges::count(models, *found) > 0)
+            return fail(Fault::usage, "options.value_twice", "{option} gives '{value}' twice", "--gpu-model", name);
         models.push_back(*found);
     }
     if (models.empty()) models.push_back(nullptr);
@@ -83,8 +88,11 @@ Result<void> check_tiles(const IsaArguments& options, std::span<const GpuModel* 
     if (options.tiles.empty()) return {};
     const std::string kind = options.tiles.extension().string();
     if (kind != ".exr" && kind != ".png")
-        return fail_unnamed(Fault::usage, "tiles are written as .exr or .png, not as '{}'", options.tiles.filename().string());
-    if (models.size() > 1) return fail_unnamed(Fault::usage, "--tiles shows one GPU, not {}; name one", models.size());
+        return fail(Fault::usage, "output.unknown_ending", "tiles are written as {endings}, not as '{file}'", ".exr or .png",
+                    options.tiles.filename().string());
+    if (models.size() > 1)
+        return fail(Fault::usage, "isa.tiles_of_one_gpu", "--tiles shows one GPU, not {gpus}; pass one --gpu-model",
+                    models.size());
     return {};
 }
 
@@ -183,13 +191,15 @@ Result<void> report_frame(const IsaArguments& options, std::span<const GpuModel*
     for (std::size_t i = 0; i < made->size(); ++i) {
         const Compilation& compiled = (*made)[i];
         const GpuModel* model = models[i] ? models[i] : gpu_model_of(compiled.device);
-        IsaOfGpu& gpu = report->gpus.emplace_back(isa_of_gpu(model, compiled, requests, passes_of(counting, requests)));
+        IsaOfGpu& gpu = report->gpus.emplace_back(isa_of_gpu(model, compiled, requests, isa_steps_of(counting, requests)));
         if (*shader)
             if (const auto done = add_tiles(**session, *request, options, {**shader, gpu, requests}); !done) return done;
         if (options.dump.empty()) continue;
         if (const auto done = dump(options, gpu.name, compiled, requests); !done) return done;
     }
-    to_stdout("{}", options.json ? as_json(*report) : as_text(*report));
+    report->capture_id = (*session)->capture_id();
+    report->date = date_of_output();
+    write_stdout(in_format(printed_format(options.output), *report));
     return {};
 }
 
@@ -203,7 +213,7 @@ Result<void> run_isa(const IsaArguments& options, const CLI::App& app) {
                              "--force", "--samples", "--gpu-model", "--frame", "--dump", "--no-run", "--tiles"},
                             "without a capture the known GPU models are listed");
         if (!listing) return listing;
-        to_stdout("{}", options.json ? gpu_models_json() : gpu_models_text());
+        write_stdout(in_format(printed_format(options.output), GpuModels{.date = date_of_output()}));
         return {};
     }
     if (const auto fine = check_tiles(options, *models); !fine) return fine;
@@ -233,7 +243,7 @@ std::function<Result<void>()> declare_isa(CLI::App& app) {
            "write waves per SIMD by screen tile, for techniques with several shader variants: .png in colors, .exr as numbers")
         ->excludes(no_run)
         ->type_name(output_file);
-    app.add_flag("--json", options->json, "print JSON instead of text");
+    add_formats(app, options->output);
     return [options, &app] { return run_isa(*options, app); };
 }
 

@@ -5,6 +5,8 @@
 #include <fmt/ranges.h>
 
 #include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/session/choice_text.h"
 #include "replay/standard_streams.h"
 

@@ -2,15 +2,18 @@
 #include <algorithm>
 #include <memory>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "capture_format/nearest_name.h"
 #include "captures/scenarios.h"
 #include "passes/frame_images.h"
+#include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/cli/verb_options.h"
 #include "replay/json_text.h"
-#include "replay/session/choice_text.h"
 
 namespace strata {
 namespace {
@@ -34,12 +37,17 @@ std::string_view model_text(ModelKind kind) {
     return "mirrors bit patterns of the shader; the property tests beside it are named in its README";
 }
 
+/// " (wboit)", or nothing.
+std::string in_brackets(std::span<const std::string_view> aliases) {
+    return aliases.empty() ? std::string() : fmt::format(" ({})", fmt::join(aliases, ", "));
+}
+
 void print(const Technique& technique, const ListArguments& options) {
     if (options.names) {
         to_stdout("{}\n", technique.name);
         return;
     }
-    to_stdout("  {:<32}{}. {}\n", technique.name, technique.title, technique.source);
+    to_stdout("  {:<32}{}{}. {}\n", technique.name, technique.title, in_brackets(technique.aliases), technique.source);
     if (options.what.empty()) return;
     to_stdout("  {:<32}{}\n", "", technique.summary);
     to_stdout("      model: {}\n", model_text(technique.model_is));
@@ -47,7 +55,7 @@ void print(const Technique& technique, const ListArguments& options) {
         if (!param.group.empty()) to_stdout("    {}:\n", param.group);
         to_stdout("      --set {:<18} {} ({})\n", param.name, param.help, range_text(param));
     }
-    for (const std::string_view point : technique.points) to_stdout("      reported also at {}\n", point);
+    for (const std::string_view point : technique.variants) to_stdout("      reported also at {}\n", point);
     for (const Counter& counter : technique.counters) to_stdout("      counter {:<16} {}\n", counter.name, counter.help);
     for (const DebugView& view : technique.views) to_stdout("      view {}:{:<12} {}\n", technique.name, view.name, view.help);
     for (const DebugTable& table : technique.tables)
@@ -57,6 +65,7 @@ void print(const Technique& technique, const ListArguments& options) {
 
 ordered_json json_of(const Technique& technique) {
     ordered_json json{{"name", technique.name},
+                      {"aliases", technique.aliases},
                       {"stage", name(technique.stage)},
                       {"title", technique.title},
                       {"source", technique.source},
@@ -74,7 +83,7 @@ ordered_json json_of(const Technique& technique) {
                                       {"choices", param.choices},
                                       {"help", param.help}});
     }
-    json["points"] = technique.points;
+    json["variants"] = technique.variants;
     json["also_at"] = ordered_json::array();
     for (const StageWork& other : technique.at_other_stages) json["also_at"].push_back(name(other.at));
     for (const Counter& counter : technique.counters)
@@ -145,7 +154,7 @@ Result<void> list_outputs(const ListArguments& options, const char* schema, cons
 
 /// A stage without techniques of its own, by those of other stages that do its work.
 void print_served(const StageInfo& stage) {
-    to_stdout("{}: {}\n", stage.name, stage.purpose);
+    to_stdout("{}{}: {}\n", stage.name, in_brackets(stage.aliases), stage.purpose);
     for (const Technique& technique : techniques())
         if (std::ranges::count(technique.at_other_stages, stage.stage, &StageWork::at) > 0)
             to_stdout("  {:<32}{}. A technique of stage {} that also has steps at this stage\n", technique.name, technique.title,
@@ -156,17 +165,19 @@ Result<void> list(const ListArguments& options) {
     if (options.scenarios) return list_scenarios(options);
     if (options.images) return list_outputs(options, "strata.images", "images", images_of_frames());
     if (options.views) return list_outputs(options, "strata.views", "views", views_of_techniques());
+    const auto called = techniques_called(options.what);
+    const auto stage_called = find_stage(options.what);
     bool found = options.what.empty();
-    ordered_json json{{"schema", "strata.list"}, {"schema_version", 1}, {"techniques", ordered_json::array()}};
+    ordered_json json{{"schema", "strata.list"}, {"schema_version", 2}, {"techniques", ordered_json::array()}};
     for (const StageInfo& stage : stages()) {
-        const bool whole_stage = options.what.empty() || options.what == stage.name;
+        const bool whole_stage = options.what.empty() || stage_called == stage.stage;
         bool headed = false;
         for (const Technique* technique : techniques_of(stage.stage)) {
-            if (!whole_stage && options.what != technique->name && options.what != short_name(*technique)) continue;
+            if (!whole_stage && std::ranges::count(called, technique) == 0) continue;
             found = true;
             json["techniques"].push_back(json_of(*technique));
             if (options.json) continue;
-            if (!headed && !options.names) to_stdout("{}: {}\n", stage.name, stage.purpose);
+            if (!headed && !options.names) to_stdout("{}{}: {}\n", stage.name, in_brackets(stage.aliases), stage.purpose);
             headed = true;
             print(*technique, options);
         }
@@ -175,9 +186,14 @@ Result<void> list(const ListArguments& options) {
     }
     if (!found) {
         std::vector<std::string_view> known;
-        for (const StageInfo& stage : stages()) known.push_back(stage.name);
-        for (const Technique& technique : techniques()) known.insert(known.end(), {technique.name, short_name(technique)});
-        return fail_unnamed(Fault::usage, "no stage or technique '{}'{}", options.what, did_you_mean(options.what, known));
+        for (const StageInfo& stage : stages()) {
+            known.push_back(stage.name);
+            known.insert(known.end(), stage.aliases.begin(), stage.aliases.end());
+        }
+        const auto words = words_for_techniques();
+        known.insert(known.end(), words.begin(), words.end());
+        return fail(Fault::usage, "list.unknown", "there is no stage and no technique '{name}'{suggestion}", options.what,
+                    did_you_mean(options.what, known));
     }
     if (options.json) write_stdout(json_text(json));
     return {};

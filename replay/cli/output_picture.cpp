@@ -4,8 +4,9 @@
 #include <array>
 #include <sstream>
 
-#include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "passes/view_params.h"
 #include "replay/difference/picture.h"
 #include "replay/images/image_io.h"

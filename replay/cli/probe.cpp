@@ -1,4 +1,4 @@
-// strata probe: the fragments of one pixel, and T(z) of every method beside the exact step function.
+// strata probe: the fragments of one pixel, and T(z) of every technique beside the exact step function.
 #include "replay/probe/probe.h"
 #include "replay/progress_line.h"
 
@@ -8,8 +8,10 @@
 #include <CLI/CLI.hpp>
 
 #include "capture_format/container/whole_file.h"
+#include "capture_format/reader.h"
 #include "replay/cli/given_options.h"
 #include "replay/cli/left_out.h"
+#include "replay/cli/table_output.h"
 #include "replay/cli/verb_options.h"
 
 namespace strata {
@@ -23,7 +25,7 @@ struct ProbeArguments {
     std::size_t frame = 0;
     ProbeOptions probe;
     std::filesystem::path output;
-    bool json = false;
+    TableOutput printed;
 };
 
 Result<PixelAt> pixel_of(const std::string& text, std::uint32_t sample) {
@@ -34,7 +36,7 @@ Result<PixelAt> pixel_of(const std::string& text, std::uint32_t sample) {
         const auto [rest, problem_y] = std::from_chars(comma + 1, end, at.y);
         if (problem_y == std::errc() && rest == end) return at;
     }
-    return fail_unnamed(Fault::usage, "--at takes a pixel like 80,45, not '{}'", text);
+    return fail(Fault::usage, "options.malformed", "{option} takes a pixel like 80,45, not '{value}'", "--at", text);
 }
 
 /// "folder/name" of the files, from what was asked for or from the capture and the pixel.
@@ -47,7 +49,7 @@ Result<void> write_files(const std::filesystem::path& stem, const Probe& made) {
     if (stem.has_parent_path())
         if (const auto folder = make_folder(stem.parent_path()); !folder) return folder;
     const std::pair<const char*, std::string> files[] = {
-        {".json", as_json(made)}, {".csv", as_csv(made)}, {".svg", as_svg(made)}};
+        {".json", as_json(made)}, {".csv", curves_csv(made)}, {".svg", as_svg(made)}};
     for (const auto& [extension, text] : files) {
         const std::filesystem::path path = stem.string() + extension;
         if (const auto written = write_whole_file(path, text); !written) return written;
@@ -68,11 +70,14 @@ Result<void> run_probe(const ProbeArguments& options) {
     ProbeOptions wanted = options.probe;
     wanted.axis = options.axis == "linear" ? DepthAxis::linear : DepthAxis::logarithmic;
     const Progress progress = progress_line();
-    progress("replaying the frame with every method", 0);
-    const auto made = probe(**session, *request, *at, wanted);
+    progress("replaying the frame with every technique", 0);
+    auto made = probe(**session, *request, *at, wanted);
     progress("", 1);
     if (!made) return made.error();
-    write_stdout(options.json ? as_json(*made) : as_text(*made));
+    made->capture_id = (*session)->capture_id();
+    made->capture_name = options.open.capture.filename().string();
+    made->date = date_of_output();
+    write_stdout(in_format(printed_format(options.printed), *made));
     return write_files(stem_of(options, *at), *made);
 }
 
@@ -85,7 +90,7 @@ std::function<Result<void>()> declare_probe(CLI::App& app) {
     app.add_option("--at", options->at, "pixel as x,y from the top left corner")->required();
     app.add_option("--sample", options->sample, "index of the sample in the pixel, default 0")->check(sample_index());
     app.add_option("--frame", options->frame, "index of the frame, default 0");
-    app.add_option("--methods", options->probe.methods,
+    app.add_option("--techniques", options->probe.variants,
                    "transparency techniques with their settings, like 'moments kind=power6,wavelet rank=3'; default: all")
         ->delimiter(',')
         ->allow_extra_args(false);
@@ -100,7 +105,7 @@ std::function<Result<void>()> declare_probe(CLI::App& app) {
         ->check(positive());
     app.add_option("-o,--output", options->output,
                    "path of the .json, .csv and .svg without extension; default: capture.f0000.x0.y0");
-    app.add_flag("--json", options->json, "print JSON instead of text");
+    add_formats(app, options->printed);
     return [options] { return run_probe(*options); };
 }
 

@@ -39,8 +39,9 @@ Error too_small(std::uint64_t budget, Piece largest, const Scenario& scenario, c
     for (std::uint32_t index = 0; index < options.frames; ++index)
         if (const std::uint64_t bytes = recorded_bytes(scenario.build(index, options)); bytes > largest.bytes)
             largest = {fmt::format("frame {}", index), bytes};
-    return fail_unnamed(Fault::usage, "--budget {} bytes is too small: {} takes {} bytes; pass --budget {} or more", budget,
-                        largest.name, largest.bytes, largest.bytes);
+    return fail(Fault::usage, "record.budget_too_small",
+                "--budget is {budget} bytes, and {part} takes {bytes}: pass at least as many", budget, largest.name,
+                largest.bytes);
 }
 
 Result<void> record(const RecordArguments& options) {

@@ -10,18 +10,23 @@
 #include <nlohmann/json.hpp>
 
 #include "capture_format/container/whole_file.h"
+#include "capture_format/reader.h"
+#include "passes/frame_images.h"
+#include "passes/stages.h"
 #include "replay/cli/given_options.h"
 #include "replay/cli/left_out.h"
 #include "replay/cli/output_picture.h"
+#include "replay/cli/repeat.h"
 #include "replay/cli/run_json.h"
+#include "replay/cli/table_output.h"
 #include "replay/cli/verb_options.h"
+#include "replay/error_text.h"
 #include "replay/expectations/expectation_check.h"
 #include "replay/images/image_io.h"
 #include "replay/json_text.h"
 #include "replay/plural.h"
 #include "replay/progress_line.h"
 #include "replay/session/choice_text.h"
-#include "replay/session/repeat.h"
 
 namespace strata {
 namespace {
@@ -36,7 +41,9 @@ struct ReplayArguments {
     std::size_t repeat = 1, timed = 0;
     std::filesystem::path folder, shaders;  ///< without a folder no file is written
     std::optional<double> tolerance;
-    bool json = false, expect = false, no_expect = false, strict = false;
+    TableOutput printed;
+    std::string date;  ///< utc_date()
+    bool expect = false, no_expect = false, strict = false;
 };
 
 /// A frame replayed, and held against what the capture expects where that was asked for.
@@ -108,10 +115,10 @@ Result<Run> run_once(Session& session, const Request& request, const ReplayArgum
     auto runs = session.time(std::span(&request, 1), options.timed);
     if (!runs) return runs.error();
     Run run = std::move(runs->front());
-    if (request.acts == Acts::left) return run;
-    auto acts = session.act_images(request);
-    if (!acts) return acts.error();
-    run.acts = *std::move(acts);
+    if (request.passes == Passes::not_read) return run;
+    auto passes = session.pass_images(request);
+    if (!passes) return passes.error();
+    run.passes = *std::move(passes);
     return run;
 }
 
@@ -128,6 +135,15 @@ bool expects(const Session& session, const ReplayArguments& options) {
     const bool as_recorded = options.eye.empty() && options.shaders.empty();
     return as_recorded && !options.no_expect && options.until.empty() &&
            (demands_expectations(options) || !session.capture()->expectations().empty());
+}
+
+/// Of what is replayed, with every frame of it.
+DocumentHead head_of(const Session& session, const ReplayArguments& options) {
+    return {.schema = "strata.replay.list",
+            .date = options.date,
+            .device = &session.device(),
+            .capture_id = session.capture_id(),
+            .capture_name = options.open.capture.filename().string()};
 }
 
 /// Compared with what is `known` to be expected, where that is not null.
@@ -148,7 +164,12 @@ Result<Replayed> replay_frame(Session& session, const Request& request, const Re
         replayed.verdict = *std::move(verdict);
     }
     replayed.provenance = provenance(session, request, replayed.run);
-    replayed.json = json_of(replayed.provenance, replayed.run, replayed.verdict ? &*replayed.verdict : nullptr);
+    DocumentHead head = head_of(session, options);
+    head.schema = "strata.replay";
+    head.width = replayed.run.width;
+    head.height = replayed.run.height;
+    head.samples = replayed.run.samples;
+    replayed.json = json_of(head, replayed.provenance, replayed.run, replayed.verdict ? &*replayed.verdict : nullptr);
     return replayed;
 }
 
@@ -179,13 +200,15 @@ Result<void> judge(const Request& request, const Replayed& replayed, const Repla
                               sentence(image));
             return {};
         case Agreement::diverges:
-            return fail_unnamed(Fault::over_tolerance, "frame {} is not as expected{}; the first pass that diverges is {}",
-                                request.variant.frame, where, sentence(*verdict.first_divergence()));
+            return fail(Fault::over_tolerance, "replay.diverges",
+                        "frame {frame} is not as expected on {device}; the first pass that diverges is {divergence}",
+                        request.variant.frame, verdict.elsewhere ? text(*verdict.elsewhere) : "this device",
+                        sentence(*verdict.first_divergence()));
         case Agreement::no_expectation:
-            return fail_unnamed(
-                Fault::expectation_missing, "frame {} has no expectation for this device and these choices; {}accept it with: {}",
-                request.variant.frame, options.json ? fmt::format("it gives\n  {}\n", short_json(*replayed.got)) : "",
-                command_to_accept(options, request.variant.frame));
+            if (options.printed.json) to_stderr("frame {} gives\n  {}\n", request.variant.frame, short_json(*replayed.got));
+            return fail(Fault::expectation_missing, "replay.no_expectation",
+                        "frame {frame} has no expected results for this device and these choices; store them with: {command}",
+                        request.variant.frame, command_to_accept(options, request.variant.frame));
     }
     return {};
 }
@@ -213,13 +236,14 @@ Result<void> check_outputs(const Request& request, const Run& run, const ReplayA
         if (!run.images.contains(output) && !run.tables.contains(output))
             missing += fmt::format("{}'{}': {}", missing.empty() ? "" : "; ", output, why_missing(output, run, options));
     if (missing.empty()) return {};
-    return fail_unnamed(Fault::usage, "frame {} has no {}", request.variant.frame, missing);
+    return fail(Fault::usage, "frame.no_output", "frame {frame} has no {output}", request.variant.frame, missing);
 }
 
 Result<void> check_supported(const Request& request, const Run& run) {
     if (run.not_supported.empty()) return {};
     const UnsupportedChoice& first = run.not_supported.front();
-    return fail_unnamed(Fault::over_tolerance, "frame {}: {} cannot do {}", request.variant.frame, first.technique, first.reason);
+    return fail(Fault::over_tolerance, "replay.not_supported", "frame {frame}: {technique} cannot do {feature}",
+                request.variant.frame, first.technique, first.reason);
 }
 
 /// "811229 fragments, 187 deepest": what the technique of a choice line counted.
@@ -264,7 +288,7 @@ Result<void> replay(const ReplayArguments& options) {
     if (!frames) return frames.error();
     if (!options.folder.empty())
         if (const auto made = make_folder(options.folder); !made) return made;
-    if (!options.outputs.empty() && options.folder.empty() && !options.json)
+    if (!options.outputs.empty() && options.folder.empty() && !options.printed.json)
         to_stderr("strata: --outputs alone writes nothing: pass -o FOLDER for images, -o FOLDER or --json for tables\n");
     std::optional<std::vector<Expectation>> known;
     if (expects(**session, options)) {
@@ -273,10 +297,12 @@ Result<void> replay(const ReplayArguments& options) {
         known = *std::move(parsed);
     }
 
-    const bool acts = options.repeat > 1 || options.json || known;
+    const bool passes = options.repeat > 1 || options.printed.json || known;
     request->once = true;
-    request->acts = acts && options.until.empty() ? Acts::brought_back : Acts::left;
-    ordered_json all{{"schema", "strata.replay.list"}, {"schema_version", 1}, {"frames", ordered_json::array()}};
+    request->passes = passes && options.until.empty() ? Passes::read_back : Passes::not_read;
+    ordered_json all = document(head_of(**session, options));
+    all["frames"] = ordered_json::array();
+    std::vector<Sheet> steps;
     Result<void> judged;  // what diverges counts before what is missing, and the first frame before later ones
     const Progress progress = progress_line();
     LeftOutNotes notes;
@@ -287,15 +313,19 @@ Result<void> replay(const ReplayArguments& options) {
         auto replayed = replay_frame(**session, *request, options, known ? &*known : nullptr);
         if (!replayed) return replayed.error();
         if (const auto done = write_frame(*request, *replayed, options); !done) return done;
-        if (!options.json) print_summary(*request, replayed->run);
-        if (options.timed > 0 && !options.json) print_times(replayed->run);
+        const bool is_text = printed_format(options.printed) == OutputFormat::text;
+        if (is_text) print_summary(*request, replayed->run);
+        if (options.timed > 0 && is_text) print_times(replayed->run);
+        if (options.printed.csv) steps.push_back(steps_of(replayed->run, request->variant.frame));
         auto now = judge(*request, *replayed, options);
         if (now && options.strict) now = check_supported(*request, replayed->run);
         if (now) now = check_outputs(*request, replayed->run, options);
         if (!now && (judged || now.error().fault < judged.error().fault)) judged = now;
         all["frames"].push_back(std::move(replayed->json));
     }
-    if (options.json) write_stdout(json_text(all));
+    if (!judged) all["error"] = json_of(judged.error());
+    if (options.printed.json) write_stdout(json_text(all));
+    if (options.printed.csv) write_stdout(as_csv(steps));
     return judged;
 }
 
@@ -311,17 +341,20 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
                    "Names: strata list --images, --views")
         ->delimiter(',');
     auto* until = app.add_option("--until", options->until, "stop after the last step whose name contains this text");
-    app.add_option("--repeat", options->repeat, "replay this many times, 2 or more; exit code 7 if any image of any pass differs")
+    app.add_option("--repeats", options->repeat,
+                   "replay this many times, 2 or more; exit code 7 if any image of any pass differs")
         ->check(from_to(2, 100000))
         ->excludes(until);
-    app.add_option("--time", options->timed, "time every step over this many repeats after a warm-up; print median and deviation")
-        ->check(from_to(1, 10000));
+    CLI::Option* time = app.add_option("--time", options->timed,
+                                       "time every step over this many repeats after a warm-up; print median and deviation")
+                            ->check(from_to(1, 10000));
     app.add_option(
            "-o,--output", options->folder,
            "write .exr, .png and .json of each frame to this folder, named for the --use and --set choices; default: write "
            "nothing")
         ->type_name(output_folder);
-    app.add_flag("--json", options->json, "print JSON instead of text");
+    add_formats(app, options->printed);
+    app.get_option("--csv")->needs(time)->description("print the times of steps as comma-separated values instead of text");
     app.add_option("--tolerance", options->tolerance,
                    "largest allowed relative RMSE to the expected images; exit code 6 if the capture has none")
         ->check(not_negative());
@@ -335,7 +368,10 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
                  "exit code 1 instead of a warning if a technique does not support a feature of the frame");
     app.add_flag("--expect", options->expect, "exit code 6 if the capture has no expected results for a frame");
     app.add_flag("--no-expect", options->no_expect, "do not compare with the capture's expected results");
-    return [options, &app] { return check_options(*options, app).and_then([&] { return replay(*options); }); };
+    return [options, &app] {
+        options->date = date_of_output();
+        return check_options(*options, app).and_then([&] { return replay(*options); });
+    };
 }
 
 }  // namespace strata

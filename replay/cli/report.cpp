@@ -11,16 +11,20 @@
 
 #include "capture_format/container/whole_file.h"
 #include "capture_format/nearest_name.h"
+#include "capture_format/reader.h"
 #include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/cli/given_options.h"
 #include "replay/cli/left_out.h"
+#include "replay/cli/table_output.h"
 #include "replay/cli/verb_options.h"
 #include "replay/progress_line.h"
 #include "replay/report/hard_cases.h"
-#include "replay/report/pooled.h"
-#include "replay/report/table.h"
+#include "replay/report/report_columns.h"
 #include "replay/report/variants.h"
 #include "replay/session/choice_text.h"
+#include "replay/tables/table.h"
 
 namespace strata {
 namespace {
@@ -30,7 +34,7 @@ struct ReportArguments {
     OpenOptions open;
     ChoiceOptions choices;
     std::string stage = "transparency";
-    std::vector<std::string> sweeps, methods;
+    std::vector<std::string> sweeps, techniques;
     std::string error, within, error_at = "stage";
     bool defaults = false;
     std::size_t frame = 0;
@@ -38,8 +42,8 @@ struct ReportArguments {
     std::optional<double> minutes;
     std::optional<std::uint32_t> flicker;
     std::optional<double> dolly, pan;
-    bool json = false, csv = false, hard_cases = false, points = false;
-    std::filesystem::path output;
+    bool hard_cases = false, variants = false;
+    TableOutput output;
 };
 
 /// Asks for a stop after so many minutes, and when another stop is requested.
@@ -70,7 +74,7 @@ private:
 Result<Sweep> parse_sweep(const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == text.npos || equals + 1 == text.size())
-        return fail_unnamed(Fault::usage, "--sweep takes key=a,b,c, not '{}'", text);
+        return fail(Fault::usage, "options.malformed", "{option} takes key=a,b,c, not '{value}'", "--sweep", text);
     Sweep sweep{.key = text.substr(0, equals)};
     for (std::size_t begin = equals + 1; begin <= text.size();) {
         const std::size_t end = std::min(text.find(',', begin), text.size());
@@ -89,17 +93,18 @@ Result<std::optional<double>> parse_limit(const char* option, std::string text, 
     double value = 0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (problem != std::errc() || end != text.data() + text.size() || !(value > 0) || !std::isfinite(value))
-        return fail_unnamed(Fault::usage, "{} takes a number above 0, like 2{}, not '{}'", option, unit, given);
+        return fail(Fault::usage, "options.malformed", "{option} takes a number above 0, like 2{unit}, not '{value}'", option,
+                    unit, given);
     return std::optional(has_unit ? value * factor : value);
 }
 
-std::string written(const ReportArguments& options, std::span<const Report> made) {
-    if (made.size() == 1) return options.json ? as_json(made[0]) : options.csv ? as_csv(made[0]) : as_text(made[0]);
+std::string written(OutputFormat format, std::span<const Report> made) {
+    if (made.size() == 1) return in_format(format, made[0]);
     const Pool pool = pooled(made);
-    if (options.json || options.csv) return options.json ? as_json(made, pool) : as_csv(made, pool);
-    std::string text;
-    for (const Report& one : made) text += as_text(one) + "\n";
-    return text + as_text(pool);
+    if (format == OutputFormat::json) return as_json(made, pool);
+    if (format == OutputFormat::csv) return as_csv(made, pool);
+    const Page page = page_of(made, pool);
+    return format == OutputFormat::markdown ? as_markdown(page) : as_text(page);
 }
 
 /// A setting of the measured stage alone that not every row has: which rows are to have it?
@@ -115,19 +120,21 @@ Result<void> check_setting(const SettingChange& change, const ReportRequest& wan
     ChoiceChanges alone;
     alone.settings.push_back(change);
     const std::string text = set_texts(alone).front();
-    return fail_unnamed(
-        Fault::usage,
-        "--set {} cannot be given to every row of the report: {} has no '{}'; give it to one row with --methods '{} {}'", text,
-        lacking->technique->name, change.key, short_name(*own), text.substr(text.find(':') + 1));
+    return fail(Fault::usage, "report.setting_of_some_rows",
+                "--set {setting} does not apply to every row of the report: {technique} has no '{parameter}'; pass it to one row "
+                "with --techniques '{variant}'",
+                text, lacking->technique->name, change.key,
+                fmt::format("{} {}", short_name(*own), text.substr(text.find(':') + 1)));
 }
 
 /// --use and --set are for the other stages: the rows are the techniques of the measured one.
 Result<void> check_choices(const ReportRequest& wanted, std::span<const Variant> rows) {
     const ChoiceChanges& choices = wanted.base.choices;
     if (const Technique* used = choices.techniques[static_cast<std::size_t>(wanted.stage)])
-        return fail_unnamed(Fault::usage,
-                            "--use {} does not apply: a report of {} measures its techniques; choose them with --methods {}",
-                            used->name, name(wanted.stage), short_name(*used));
+        return fail(Fault::usage, "report.use_of_measured_stage",
+                    "--use {technique} does not apply: a report of {stage} measures its techniques; choose them with "
+                    "--techniques {variant}",
+                    used->name, name(wanted.stage), short_name(*used));
     for (const SettingChange& change : choices.settings)
         if (const auto fits = check_setting(change, wanted, rows); !fits) return fits;
     return {};
@@ -144,14 +151,16 @@ Result<ReportRequest> request_of(const ReportArguments& options) {
     const auto stage = find_stage(options.stage);
     std::vector<std::string_view> known;
     for (const StageInfo& info : stages()) known.push_back(info.name);
-    if (!stage) return fail_unnamed(Fault::usage, "there is no stage '{}'{}", options.stage, did_you_mean(options.stage, known));
+    if (!stage)
+        return fail(Fault::usage, "stage.unknown", "there is no stage '{stage}'{suggestion}", options.stage,
+                    did_you_mean(options.stage, known));
     wanted.stage = *stage;
     for (const std::string& text : options.sweeps) {
         const auto sweep = parse_sweep(text);
         if (!sweep) return sweep.error();
         wanted.sweeps.push_back(*sweep);
     }
-    wanted.methods = options.methods;
+    wanted.techniques = options.techniques;
     wanted.defaults_only = options.defaults;
     const auto error = parse_limit("--error", options.error, '%', .01), within = parse_limit("--within", options.within, 'x', 1);
     if (!error) return error.error();
@@ -170,37 +179,42 @@ std::string problem_of_positions(std::string& text) {
     std::uint32_t count = 0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), count);
     if (problem == std::errc() && end == text.data() + text.size() && count >= 2 && count <= 10000) return {};
-    return fmt::format("takes a number of positions from 2 to 10000, not '{}'; captures stand before it", text);
+    throw RefusedValue{fail(Fault::usage, "options.out_of_range",
+                            "takes {low} to {high} positions, not '{value}'; write captures before it", 2, 10000, text)};
 }
 
 Result<void> write(const ReportArguments& options, const std::string& text) {
-    if (!options.output.empty()) return write_whole_file(options.output, text);
-    to_stdout("{}", text);
+    if (!options.output.file.empty()) return write_whole_file(options.output.file, text);
+    write_stdout(text);
     return {};
 }
 
 Result<void> report_hard_cases(const ReportArguments& options) {
     auto rows = variants({.stage = Stage::transparency});
     if (!rows) return rows.error();
-    if (!options.points) std::erase_if(*rows, [](const Variant& row) { return !row.settings.empty(); });
+    if (!options.variants) std::erase_if(*rows, [](const Variant& row) { return !row.settings.empty(); });
     const StopAtSignal signal;
     return measure_hard_cases(options.open.device, *rows, progress_line(), signal.token()).and_then([&](auto& made) {
-        const auto done = write(options, options.json ? as_json(made) : as_text(made));
-        return done && !made.stopped.empty() ? Result<void>(fail_unnamed(Fault::stopped, "{}", made.stopped)) : done;
+        made.date = date_of_output();
+        const auto done = write(options, in_format(file_format(options.output, OutputFormat::text), made));
+        return done && !made.stopped.empty() ? Result<void>(fail(Fault::stopped, "session.stopped", "{progress}", made.stopped))
+                                             : done;
     });
 }
 
 Result<void> report(const ReportArguments& options, const CLI::App& app) {
+    if (const auto fits = check_ending(options.output); !fits) return fits;
     if (options.hard_cases) {
-        const auto fits = check_not_given(
-            app,
-            {"--csv", "--allow-partial", "--use", "--set", "--force", "--samples", "--stage", "--methods", "--defaults",
-             "--error", "--error-at", "--within", "--sweep", "--frame", "--repeats", "--minutes", "--flicker"},
-            "--hard-cases brings frames and settings of its own and writes text or --json");
+        const auto fits =
+            check_not_given(app,
+                            {"--allow-partial", "--use", "--set", "--force", "--samples", "--stage", "--techniques", "--defaults",
+                             "--error", "--error-at", "--within", "--sweep", "--frame", "--repeats", "--minutes", "--flicker"},
+                            "--hard-cases brings frames and settings of its own");
         return fits ? report_hard_cases(options) : fits;
     }
     if (options.captures.empty())
-        return fail_unnamed(Fault::usage, "strata report wants a capture, or --hard-cases, which brings its own frames");
+        return fail(Fault::usage, "options.missing", "a {option} is required; --hard-cases builds frames and needs none",
+                    "capture");
     const auto wanted = request_of(options);
     if (!wanted) return wanted.error();
     ReportRequest request = *wanted;
@@ -210,7 +224,7 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
         const std::string time = row.time ? fmt::format("time {}", short_number(row.time->median))
                                           : fmt::format("{} ms", short_number(row.stage_ms.median));
         to_stderr("strata: {} of {}  {}: {} {}, {}\n", place, of, row_label, ranking_name(row),
-                  short_number(ranking_figure(row).value), time);
+                  short_number(ranking_metric(row).value), time);
     };
     const Progress progress = progress_line();
     const StopAtSignal signal;
@@ -227,17 +241,18 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
         auto report = make_report(**session, request, progress);
         if (!report && report.error().fault == Fault::stopped && !made.empty()) break;
         if (!report && report.error().fault == Fault::stopped && !signal.token().stop_requested())
-            return fail_unnamed(Fault::usage, "no row was measured within {} minutes; give the report more time",
-                                *options.minutes);
+            return fail(Fault::usage, "report.no_row_in_time",
+                        "no row was measured within {minutes} minutes; pass more --minutes", *options.minutes);
         if (!report) return report.error();
         report->capture_name = capture.filename().string();
+        report->date = date_of_output();
         made.push_back(*std::move(report));
         if (deadline.token().stop_requested()) break;
     }
-    const auto done = write(options, written(options, made));
+    const auto done = write(options, written(file_format(options.output, OutputFormat::text), made));
     if (!done || (made.back().stopped.empty() && made.size() == options.captures.size())) return done;
     const std::string missing = made.back().stopped.empty() ? "stopped before the next capture" : made.back().stopped;
-    if (signal.token().stop_requested()) return fail_unnamed(Fault::stopped, "{}", missing);
+    if (signal.token().stop_requested()) return fail(Fault::stopped, "session.stopped", "{progress}", missing);
     to_stderr("strata: {} minutes are over: {}\n", *options.minutes, missing);
     return done;
 }
@@ -253,18 +268,18 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
         app.add_flag("--hard-cases", options->hard_cases,
                      "run every transparency technique on frames built to break it; print pass or the size of the error")
             ->excludes(captures);
-    app.add_flag("--points", options->points,
+    app.add_flag("--variants", options->variants,
                  "run --hard-cases also at each technique's other settings, not only at the defaults")
         ->needs(hard_cases);
     add_options(app, options->open.device);
     app.add_flag("--allow-partial", options->open.allow_partial, "read the complete frames of a truncated file");
     add_options(app, options->choices);
     app.add_option("--stage", options->stage, "stage whose techniques are measured, default transparency");
-    CLI::Option* methods =
-        app.add_option("--methods", options->methods,
+    CLI::Option* techniques =
+        app.add_option("--techniques", options->techniques,
                        "techniques to measure with their settings, like 'moments kind=power6,weighted'; default: all");
-    methods->delimiter(',')->allow_extra_args(false);
-    app.add_flag("--defaults", options->defaults, "measure each technique only at its default settings")->excludes(methods);
+    techniques->delimiter(',')->allow_extra_args(false);
+    app.add_flag("--defaults", options->defaults, "measure each technique only at its default settings")->excludes(techniques);
     app.add_option("--error", options->error,
                    "answer which technique, the baseline aside, is cheapest with at most this error, like 1%");
     app.add_option("--error-at", options->error_at,
@@ -292,9 +307,9 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
                    "meters that the camera moves in all; default: 1/20 of the distance to the center of the transparent geometry")
         ->needs("--flicker");
     app.add_option("--pan", options->pan, "degrees that the camera turns to the right in all, default 5")->needs("--flicker");
-    CLI::Option* json = app.add_flag("--json", options->json, "print JSON instead of text");
-    app.add_flag("--csv", options->csv, "print comma-separated values instead of text")->excludes(json);
-    app.add_option("-o,--output", options->output, "write the report to this file instead of stdout")->type_name(output_file);
+    add_formats(app, options->output);
+    add_output_file(app, options->output,
+                    "write the report to this file instead of stdout, in the format of its ending: .json, .csv, .md or .txt");
     return [options, &app] { return report(*options, app); };
 }
 

@@ -6,39 +6,27 @@
 #include <nlohmann/json.hpp>
 
 #include "passes/registry.h"
+#include "passes/stages.h"
 
 namespace strata {
 namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json json_of(const Spread& spread) {
-    return {{"median", spread.median}, {"mad", spread.mad}, {"repeats", spread.repeats}};
-}
-
-ordered_json steps_of(const Run& run) {
-    ordered_json steps = ordered_json::array();
-    for (const StepRecord& step : run.steps) {
-        ordered_json row{{"index", steps.size()}, {"scope", text_of(step.scope)}, {"name", step.name}};
-        if (step.ms) row["gpu_ms"] = json_of(*step.ms);
-        steps.push_back(std::move(row));
+ordered_json passes_of(const Run& run) {
+    ordered_json passes = ordered_json::array();
+    for (const PassImages& pass : run.passes) {
+        ordered_json row{
+            {"index", passes.size()}, {"name", pass.label}, {"choice", pass.choice}, {"hash", ordered_json::object()}};
+        for (const auto& [name, image] : pass.images) row["hash"][name] = hash_of(image);
+        passes.push_back(std::move(row));
     }
-    return steps;
-}
-
-ordered_json acts_of(const Run& run) {
-    ordered_json acts = ordered_json::array();
-    for (const ActImages& act : run.acts) {
-        ordered_json row{{"index", acts.size()}, {"name", act.label}, {"choice", act.choice}, {"hash", ordered_json::object()}};
-        for (const auto& [name, image] : act.images) row["hash"][name] = hash_of(image);
-        acts.push_back(std::move(row));
-    }
-    return acts;
+    return passes;
 }
 
 ordered_json json_of(const ImageVerdict& verdict) {
     ordered_json json{
-        {"act", verdict.act}, {"image", verdict.image}, {"hash", verdict.hash}, {"expected", verdict.expected_hash}};
+        {"pass", verdict.pass}, {"image", verdict.image}, {"hash", verdict.hash}, {"expected", verdict.expected_hash}};
     if (!verdict.deviation) return json;
     const WorstTexel& w = verdict.deviation->worst;
     json["metric"] = "relative rmse";
@@ -122,12 +110,37 @@ ordered_json json_of(const RunTimes& times) {
 
 }  // namespace
 
-ordered_json json_of(const Metadata& provenance, const Run& run, const ExpectationVerdict* verdict) {
-    ordered_json json{{"schema", "strata.replay"}, {"schema_version", 1}};
+Sheet steps_of(const Run& run, std::size_t frame) {
+    struct NumberedStep {
+        std::size_t index;
+        const StepRecord& step;
+    };
+    const std::vector<Column<NumberedStep>> columns{
+        {{.key = "frame", .title = "frame", .help = "index of the frame", .kind = CellKind::count, .shown = in_csv},
+         [frame](const NumberedStep&) { return std::uint64_t{frame}; }},
+        {{.key = "index", .title = "index", .help = "number of the step", .kind = CellKind::count, .shown = in_files},
+         [](const NumberedStep& row) { return std::uint64_t{row.index}; }},
+        {{.key = "scope", .title = "scope", .help = "stage and technique", .kind = CellKind::text, .shown = in_text | in_files},
+         [](const NumberedStep& row) { return text_of(row.step.scope); }},
+        {{.key = "name", .title = "step", .help = "name of the step", .kind = CellKind::text, .shown = in_files},
+         [](const NumberedStep& row) { return row.step.name; }},
+        {{.key = "gpu_ms",
+          .title = "ms",
+          .help = "time of the step, with --time",
+          .kind = CellKind::spread,
+          .better = Better::less},
+         [](const NumberedStep& row) { return cell_or_nothing(row.step.ms); }}};
+    std::vector<NumberedStep> steps;
+    for (std::size_t i = 0; i < run.steps.size(); ++i) steps.push_back({i, run.steps[i]});
+    return sheet_of<NumberedStep>(columns, steps, [](const NumberedStep& row) { return RowName{"", row.step.name}; });
+}
+
+ordered_json json_of(const DocumentHead& head, const Metadata& provenance, const Run& run, const ExpectationVerdict* verdict) {
+    ordered_json json = document(head);
     for (const auto& [key, value] : provenance) json["provenance"][key] = value;
     json["provenance"]["strata.settings"] = run.choices;
-    json["steps"] = steps_of(run);
-    if (!run.acts.empty()) json["acts"] = acts_of(run);
+    json["steps"] = rows_json(steps_of(run, 0));
+    if (!run.passes.empty()) json["passes"] = passes_of(run);
     if (verdict) json["expectation"] = json_of(*verdict);
     if (run.frame_ms) json["frame_ms"] = json_of(*run.frame_ms);
     for (const auto& [stage, ms] : run.stage_ms) json["stage_ms"][stage] = json_of(ms);

@@ -10,8 +10,12 @@
 
 #include "capture_format/container/whole_file.h"
 #include "capture_format/nearest_name.h"
+#include "capture_format/reader.h"
+#include "passes/frame_images.h"
+#include "passes/technique.h"
 #include "replay/cli/given_options.h"
 #include "replay/cli/left_out.h"
+#include "replay/cli/table_output.h"
 #include "replay/cli/verb_options.h"
 #include "replay/isa/compile_elsewhere.h"
 #include "replay/progress_line.h"
@@ -26,8 +30,7 @@ struct SpectraArguments {
     std::string frames, cost, gpu_model, aim = "sum";
     SpectraWish wish;
     std::size_t repeats = 7;
-    bool json = false;
-    std::filesystem::path output;
+    TableOutput output;
 };
 
 Result<const CostSource*> find_cost_source(const std::string& name) {
@@ -36,7 +39,8 @@ Result<const CostSource*> find_cost_source(const std::string& name) {
         if (source.name == name) return &source;
         known.push_back(source.name);
     }
-    return fail_unnamed(Fault::usage, "--cost takes {}, not '{}'{}", fmt::join(known, " or "), name, did_you_mean(name, known));
+    return fail(Fault::usage, "options.not_a_choice", "{option} takes {choices}, not '{value}'{suggestion}", "--cost",
+                fmt::format("{}", fmt::join(known, " or ")), name, did_you_mean(name, known));
 }
 
 Result<std::unique_ptr<Session>> open_one(const SpectraArguments& options, const std::filesystem::path& capture) {
@@ -69,7 +73,7 @@ Result<std::vector<FrameSpectra>> gather(const SpectraArguments& options, const 
             gathered.push_back(std::move(frame));
         }
     }
-    if (gathered.empty()) return fail_unnamed(Fault::usage, "no frame has a feature spectrum: {}", why);
+    if (gathered.empty()) return fail(Fault::usage, "spectra.no_frame", "no frame has a feature spectrum: {reason}", why);
     return gathered;
 }
 
@@ -90,11 +94,13 @@ Result<void> check_options(const SpectraArguments& options, const CLI::App& app)
 Result<const GpuModel*> gpu_of(const SpectraArguments& options) {
     if (options.gpu_model.empty()) return nullptr;
     const auto found = find_gpu_model(options.gpu_model);
-    if (found && (*found)->family.empty()) return fail_unnamed(Fault::usage, "RADV does not compile for {}", options.gpu_model);
+    if (found && (*found)->family.empty())
+        return fail(Fault::usage, "isa.model_not_in_radv", "RADV does not compile for {model}", options.gpu_model);
     return found;
 }
 
 Result<void> spectra(const SpectraArguments& options) {
+    if (const auto fits = check_ending(options.output); !fits) return fits;
     const auto source = find_cost_source(cost_of(options));
     if (!source) return source.error();
     const auto gpu = gpu_of(options);
@@ -125,8 +131,10 @@ Result<void> spectra(const SpectraArguments& options) {
     if (!report) return report.error();
     report->technique = *technique;
     report->cost_source = *gpu ? fmt::format("isa, {}", (*gpu)->name) : cost_of(options);
-    to_stdout("{}", options.json ? as_json(*report) : as_text(*report));
-    return options.output.empty() ? Result<void>() : write_whole_file(options.output, as_json(*report));
+    report->date = date_of_output();
+    write_stdout(in_format(printed_format(options.output), *report));
+    if (options.output.file.empty()) return {};
+    return write_whole_file(options.output.file, in_format(file_format(options.output, OutputFormat::json), *report));
 }
 
 std::string help_of_costs() {
@@ -157,8 +165,8 @@ std::function<Result<void>()> declare_spectra(CLI::App& app) {
         ->check(not_negative());
     app.add_option("--repeats", options->repeats, "timed repeats of each shader variant after a warm-up, default 7")
         ->check(from_to(1, 1000));
-    app.add_flag("--json", options->json, "print JSON instead of text");
-    app.add_option("-o,--output", options->output, "write the JSON to this file, too")->type_name(output_file);
+    add_formats(app, options->output);
+    add_output_file(app, options->output, "also write to this file, in the format of its ending: .json, .csv, .md or .txt");
     return [options, &app] { return check_options(*options, app).and_then([&] { return spectra(*options); }); };
 }
 

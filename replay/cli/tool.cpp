@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <regex>
@@ -31,7 +32,8 @@ constexpr const char* exit_codes =
     "4 the device or the memory budget lacks what is needed, 5 device failure, 6 expectation missing, 7 not repeatable,\n"
     "8 a mistake of strata, 130 interrupted (128 + the signal)";
 
-constexpr const char* wants_ids = "-v,--verbose";
+/// Read by say().
+constexpr const char *wants_ids = "-v,--verbose", *ids_help = "also print the id and the values of an error";
 
 struct GpusArguments {
     bool list = false, json = false;
@@ -61,23 +63,25 @@ Result<void> list_gpus(const GpusArguments& options) {
     return {};
 }
 
+Error no_thread(const std::exception& refused) {
+    return fail(Fault::device_lacks, "machine.no_thread", "this machine cannot start another thread: {reason}", refused.what());
+}
+
 /// What is thrown as what is returned. A file may need more memory than there is and still be within every limit: 4 GiB for a
 /// frame.
 Result<void> without_exceptions(const std::function<Result<void>()>& work) {
     try {
         return work();
     } catch (const std::bad_alloc&) {
-        return fail_unnamed(Fault::device_lacks, "this machine has too little memory");
+        return fail(Fault::device_lacks, "machine.out_of_memory", "this machine has too little memory");
     } catch (const std::system_error& refused) {
-        if (refused.code() == std::errc::resource_unavailable_try_again)
-            return fail_unnamed(Fault::device_lacks, "this machine cannot start another thread: {}", refused.what());
-        return fail_unnamed(Fault::usage, "{}", refused.what());
+        if (refused.code() == std::errc::resource_unavailable_try_again) return no_thread(refused);
+        return fail(Fault::usage, "machine.refused", "{reason}", refused.what());
     } catch (const std::exception& mistake) {
         // oneTBB 2021.8 throws no system_error.
-        if (std::string_view(mistake.what()).starts_with("pthread_create"))
-            return fail_unnamed(Fault::device_lacks, "this machine cannot start another thread: {}", mistake.what());
-        return fail_unnamed(Fault::internal, "this is a mistake of strata; please report it with the command: {}",
-                            mistake.what());
+        if (std::string_view(mistake.what()).starts_with("pthread_create")) return no_thread(mistake);
+        return fail(Fault::internal, "strata.mistake", "this is a mistake of strata; please report it with the command: {reason}",
+                    mistake.what());
     }
 }
 
@@ -107,11 +111,9 @@ bool is_in_one_of(const std::vector<std::filesystem::path>& folders, const std::
 Result<void> keep_inputs(const CLI::App& verb) {
     const std::vector<std::filesystem::path> inputs = files_of(verb, input_file);
     const std::vector<std::filesystem::path> outputs = files_of(verb, output_file);
-    for (const auto& files : {inputs, outputs})
-        for (const std::filesystem::path& file : files)
-            if (file.empty()) return fail_unnamed(Fault::usage, "a file's name is empty");
     for (const std::filesystem::path& output : outputs)
-        if (output == "-") return fail_unnamed(Fault::usage, "'-' is no file; write to standard output with /dev/stdout");
+        if (output == "-")
+            return fail(Fault::usage, "output.is_dash", "'{file}' is not a file; write to standard output with /dev/stdout", "-");
     for (const auto& files : {inputs, files_of(verb, extended_file)})
         for (const std::filesystem::path& input : files)
             if (const auto fine = check_is_file(input); !fine) return fine;
@@ -125,22 +127,41 @@ Result<void> keep_inputs(const CLI::App& verb) {
     return {};
 }
 
-/// CLI11's words (2.1), those that are hard to understand replaced.
-std::string sentence_of(const CLI::ParseError& error) {
-    struct Words {
-        std::string_view error;
-        const char *theirs, *ours;
-    };
-    constexpr Words all[] = {
-        {"ExcludesError", "(.*) excludes (.*)", "$1 cannot be combined with $2"},
-        {"ArgumentMismatch", "(.*): At Most 1 required but received (.*)", "$1 is given $2 times; give it once"},
-        {"ArgumentMismatch", "(.*): At least (.*) required but received (.*)", "$1 takes $2 values, not $3"},
-        {"ArgumentMismatch", "(.*): 1 required .* missing", "$1 needs a value"}};
+/// CLI11's errors (2.1) by their form, those that are hard to understand in other words.
+Error error_of(const CLI::ParseError& error) {
     const std::string sentence = error.what();
-    for (const auto& [name, theirs, ours] : all)
-        if (const std::regex form(theirs); error.get_name() == name && std::regex_match(sentence, form))
-            return std::regex_replace(sentence, form, ours);
-    return sentence;
+    std::smatch part;
+    const auto is = [&](std::string_view type, const char* form) {
+        return error.get_name() == type && std::regex_match(sentence, part, std::regex(form));
+    };
+    if (is("ExcludesError", "(.*) excludes (.*)"))
+        return fail(Fault::usage, "options.excluded", "{option} cannot be combined with {other}", part.str(1), part.str(2));
+    if (is("RequiresError", "(.*) requires (.*)"))
+        return fail(Fault::usage, "options.needs", "{option} needs {other}", part.str(1), part.str(2));
+    if (is("RequiredError", "(.*) is required"))
+        return fail(Fault::usage, "options.missing", "{option} is required", part.str(1));
+    if (is("ArgumentMismatch", "(.*): At Most 1 required but received (.*)"))
+        return fail(Fault::usage, "options.repeated", "{option} is given {times} times; give it once", part.str(1), part.str(2));
+    if (is("ArgumentMismatch", "(.*): At least (.*) required but received (.*)"))
+        return fail(Fault::usage, "options.value_count", "{option} takes {wanted} values, not {given}", part.str(1), part.str(2),
+                    part.str(3));
+    if (is("ArgumentMismatch", "(.*): 1 required .* missing"))
+        return fail(Fault::usage, "options.no_value", "{option} needs a value", part.str(1));
+    // Of words of the command line, which may be long: std::regex calls itself once per letter.
+    const std::size_t colon = sentence.find(": ");
+    if (colon != sentence.npos && error.get_name() == "ExtrasError")
+        return fail(Fault::usage, "options.unexpected_argument", "unexpected argument: {argument}", sentence.substr(colon + 2));
+    if (colon != sentence.npos && error.get_name() == "ValidationError")
+        return fail(Fault::usage, "options.not_a_size", "{option}: {problem}", sentence.substr(0, colon),
+                    sentence.substr(colon + 2));
+    return fail(Fault::usage, "options.refused", "{problem}", sentence);
+}
+
+/// The same error with the command that explains the options.
+Error with_help(Error error, const CLI::App& app) {
+    const auto verb = app.get_subcommands();
+    error.sentence += "; see strata help" + (verb.empty() ? "" : " " + verb.front()->get_name());
+    return error;
 }
 
 /// Whether a verb is to run: help and versions are printed here.
@@ -151,20 +172,19 @@ Result<bool> parse(CLI::App& app, std::vector<std::string> arguments) {
         std::ranges::reverse(arguments);  // CLI11 takes a vector from its back
         app.parse(arguments);
         return true;
+    } catch (const RefusedValue& refused) {
+        return with_help(refused.error, app);
     } catch (const CLI::ParseError& error) {
         std::ostringstream out, err;
         const int code = app.exit(error, out, err);
         write_stdout(out.str());
-        if (code != 0) {
-            const auto verb = app.get_subcommands();
-            if (has_separator && !verb.empty())
-                return fail_unnamed(
-                    Fault::usage, "arguments after -- are file names, and strata {} takes no more of them; put options before --",
-                    verb.front()->get_name());
-            return fail_unnamed(Fault::usage, "{}; see strata help{}", sentence_of(error),
-                                verb.empty() ? "" : " " + verb.front()->get_name());
-        }
-        return false;
+        if (code == 0) return false;
+        const auto verb = app.get_subcommands();
+        if (has_separator && !verb.empty())
+            return fail(Fault::usage, "options.after_separator",
+                        "arguments after -- are file names, and strata {verb} takes no more of them; put options before --",
+                        verb.front()->get_name());
+        return with_help(error_of(error), app);
     }
 }
 
@@ -176,6 +196,7 @@ Result<void> run(std::vector<std::string> arguments, std::span<const Verb> verbs
     GpusArguments gpus;
     CLI::Option* list = app.add_flag("--list-gpus", gpus.list, "list the devices of this machine and whether they can replay");
     app.add_flag("--json", gpus.json, "print JSON instead of text, with --list-gpus")->needs(list);
+    app.add_flag(wants_ids, ids_help);
     app.require_subcommand(0, 1);
 
     std::string help_about;
@@ -187,20 +208,20 @@ Result<void> run(std::vector<std::string> arguments, std::span<const Verb> verbs
         CLI::App* sub = app.add_subcommand(std::string(verb.name), std::string(verb.summary));
         runs.emplace_back(sub, verb.declare(*sub));
         refuse_what_is_no_number(*sub);
-        sub->add_flag(wants_ids, "print the id and the values of an error, too");  // read by say()
+        sub->add_flag(wants_ids, ids_help);
     }
     const auto goes_on = parse(app, std::move(arguments));
     if (!goes_on) return goes_on.error();
     if (!*goes_on) return {};
     if (gpus.list && !app.get_subcommands().empty())
-        return fail_unnamed(Fault::usage, "--list-gpus is used without a verb; {} would be ignored",
-                            app.get_subcommands().front()->get_name());
+        return fail(Fault::usage, "options.excluded", "{option} cannot be combined with {other}", "--list-gpus",
+                    "strata " + app.get_subcommands().front()->get_name());
     if (gpus.list) return list_gpus(gpus);
     if (help->parsed() && help_about.empty()) return run({"--help"}, verbs);
     if (help->parsed()) return run({help_about, "--help"}, verbs);  // "strata help VERB" is "strata VERB --help"
     for (const auto& [sub, verb] : runs)
         if (sub->parsed())  // clang 14 captures no structured binding
-            return keep_inputs(*sub).and_then([parsed = sub] { return check_values(*parsed); }).and_then(verb);
+            return check_values(*sub).and_then([parsed = sub] { return keep_inputs(*parsed); }).and_then(verb);
     write_stdout(app.help());
     return {};
 }
@@ -226,11 +247,21 @@ bool has_flag(std::span<const std::string> arguments, std::initializer_list<std:
     return std::any_of(arguments.begin(), end, [&](const std::string& word) { return std::ranges::count(flags, word) > 0; });
 }
 
-/// On standard error as a sentence, with -v with its id, too; for --json on standard output, unless results stand there already.
+/// On standard error as a sentence, and with -v by its id.
 void say(const Error& error, std::span<const std::string> arguments) {
     to_stderr("strata: {}\n", shortened(error.sentence));
     if (has_flag(arguments, {"-v", "--verbose"})) to_stderr("strata: {}\n", shortened(id_text(error)));
-    if (!has_flag(arguments, {"--json"}) || wrote_stdout()) return;
+}
+
+/// Whether results are to be printed as JSON; of strata export, --json names the kind of file.
+bool asks_for_json(std::span<const std::string> arguments) {
+    const auto verb = std::ranges::find_if(arguments, [](const std::string& word) { return !word.starts_with('-'); });
+    return has_flag(arguments, {"--json"}) && (verb == arguments.end() || *verb != "export");
+}
+
+/// With --json standard output is one document also where the verb printed none.
+void say_as_json(const Error& error, std::span<const std::string> arguments) {
+    if (!asks_for_json(arguments) || wrote_stdout()) return;
     write_stdout(json_text({{"schema", "strata.error"}, {"schema_version", 1}, {"error", json_of(error)}}));
 }
 
@@ -240,9 +271,12 @@ int run_tool(std::vector<std::string> arguments, std::span<const Verb> verbs) {
     std::set_terminate(end_without_memory);
     const Result<void> done = without_exceptions(
         [&] { return leave_nothing_half_written_when_stopped().and_then([&] { return run(arguments, verbs); }); });
-    if (!done) say(done.error(), arguments);
+    if (!done) {
+        say(done.error(), arguments);
+        say_as_json(done.error(), arguments);
+    }
     const Result<void> written = finish_stdout();
-    if (!written) say(written.error(), {});
+    if (!written) say(written.error(), arguments);
     const Result<void>& first = done ? written : done;
     return first ? 0 : static_cast<int>(first.error().fault);
 }

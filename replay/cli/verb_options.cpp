@@ -9,6 +9,7 @@
 #include "capture_format/nearest_name.h"
 #include "capture_format/reader.h"
 #include "capture_format/recorder.h"
+#include "passes/frame_images.h"
 #include "replay/cli/given_options.h"
 #include "replay/images/image_io.h"
 #include "replay/plural.h"
@@ -75,7 +76,7 @@ Result<Capture> open_capture(const std::filesystem::path& path, Partial partial,
     auto capture = Capture::open(path, partial, memory_budget);
     if (!capture) return capture;
     say_what_is_left_out(*capture);
-    if (capture->frame_count() == 0) return fail_unnamed(Fault::bad_input, "{} holds no frame", path.string());
+    if (capture->frame_count() == 0) return fail(Fault::bad_input, "capture.no_frames", "{file} holds no frame", path.string());
     return capture;
 }
 
@@ -101,7 +102,9 @@ Result<Request> request_of(const ChoiceOptions& options) {
         const auto feature = find_feature(text);
         std::vector<std::string_view> known;
         for (const Feature candidate : all_features()) known.push_back(name(candidate));
-        if (!feature) return fail_unnamed(Fault::usage, "there is no feature '{}'{}", text, did_you_mean(text, known));
+        if (!feature)
+            return fail(Fault::usage, "feature.unknown", "there is no feature '{feature}'{suggestion}", text,
+                        did_you_mean(text, known));
         request.variant.force.push_back(*feature);
     }
     return request;
@@ -119,13 +122,14 @@ Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::siz
         std::size_t first = 0, last = 0;
         const bool good =
             parse(part.substr(0, dash), first) && (dash == part.npos ? (last = first, true) : parse(part.substr(dash + 1), last));
-        if (!good || last < first) return fail_unnamed(Fault::usage, "--frames takes a list like 0,4-8, not '{}'", text);
+        if (!good || last < first)
+            return fail(Fault::usage, "options.malformed", "{option} takes a list like 0,4-8, not '{value}'", "--frames", text);
         if (last >= count)
-            return fail_unnamed(Fault::usage, "the capture has {}, numbered from 0; there is no frame {}", plural(count, "frame"),
-                                last);
+            return fail(Fault::usage, "capture.no_frame", "there is no frame {frame}: the capture has {frames}, numbered from 0",
+                        last, count);
         for (std::size_t i = first; i <= last; ++i) {
             if (std::ranges::count(indices, i) > 0)
-                return fail_unnamed(Fault::usage, "--frames lists frame {} twice in '{}'", i, text);
+                return fail(Fault::usage, "options.value_twice", "{option} gives '{value}' twice", "--frames", i);
             indices.push_back(i);
         }
         begin = end + 1;
@@ -136,7 +140,8 @@ Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::siz
 Result<void> make_folder(const std::filesystem::path& folder) {
     std::error_code problem;
     std::filesystem::create_directories(folder, problem);
-    return problem ? Result<void>(fail_unnamed(Fault::usage, "cannot make the folder {}: {}", folder.string(), problem.message()))
+    return problem ? Result<void>(fail(Fault::usage, "file.cannot_make_folder", "cannot make the folder {folder}: {reason}",
+                                       folder.string(), problem.message()))
                    : Result<void>();
 }
 
@@ -159,7 +164,8 @@ Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& tex
     if (cross == text.npos || !parse(std::string_view(text).substr(0, cross), extent.first) ||
         !parse(std::string_view(text).substr(cross + 1), extent.second) || extent.first == 0 || extent.second == 0 ||
         extent.first > 16384 || extent.second > 16384)
-        return fail_unnamed(Fault::usage, "--size takes WIDTHxHEIGHT, each 1 to 16384, not '{}'", text);
+        return fail(Fault::usage, "options.malformed", "{option} takes WIDTHxHEIGHT, each from 1 to 16384, not '{value}'",
+                    "--size", text);
     return extent;
 }
 

@@ -1,18 +1,27 @@
 // Options that several verbs take, and what they mean.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "capture_format/partial.h"
+#include "capture_format/result.h"
 #include "replay/cli/verb.h"
 #include "replay/session/session.h"
 #include "replay/shell_word.h"
 #include "replay/standard_streams.h"
 
 namespace strata {
+
+class Capture;   // capture_format/reader.h
+struct Frame;    // capture_format/frame.h
+struct Texture;  // capture_format/frame/texture.h
 
 void add_options(CLI::App&, DeviceChoice&);
 

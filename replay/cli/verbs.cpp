@@ -34,8 +34,8 @@ std::span<const Verb> verbs() {
         {"bench", "measure the speed-ups that a technique's source claims, or what the device can do", declare_bench},
         {"spectra", "find the cheapest set of shader variants for the tiles of these frames", declare_spectra},
         {"diff", "compare two captures, settings, devices or images", declare_diff},
-        {"probe", "show the fragments of one pixel and each method's transmittance along its ray", declare_probe},
-        {"isa", "compile every pipeline for a GPU and show registers, occupancy and modelled times", declare_isa},
+        {"probe", "show the fragments of one pixel and each technique's transmittance along its ray", declare_probe},
+        {"isa", "compile every pipeline for a GPU and show registers, occupancy and modeled times", declare_isa},
         {"isa-compile", "compile what strata isa asks for", declare_isa_compile},
     };
     return table;

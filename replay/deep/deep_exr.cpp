@@ -112,8 +112,8 @@ Result<std::string> deep_exr(const DeepImage& image, const Metadata& metadata) {
     try {
         file = head_of(image, metadata);
     } catch (const std::exception& problem) {
-        return fail_unnamed(Fault::usage, "a deep image of {} x {} pixels cannot be made: {}", image.width, image.lines.size(),
-                            problem.what());
+        return fail(Fault::usage, "deep.cannot_encode", "a deep image of {width} x {height} pixels cannot be made: {reason}",
+                    image.width, image.lines.size(), problem.what());
     }
     std::vector<std::string> lines(image.lines.size());
     oneapi::tbb::enumerable_thread_specific<LinePacker> packers;

@@ -8,9 +8,9 @@
 #include <map>
 #include <numeric>
 
+#include "capture_format/view.h"
 #include "passes/transparency/sample_blend.h"
 #include "passes/transparency/truth.h"
-#include "replay/plural.h"
 #include "replay/session/drawn_by.h"
 
 namespace strata {
@@ -57,11 +57,10 @@ Error chromatic_error(const ChromaticTriangles& triangles, const Frame& frame) {
     std::map<std::string, std::uint64_t> by_draw;
     for (const auto& [triangle, fragments] : triangles) count += fragments, by_draw[drawn_by(frame, triangle)] += fragments;
     const auto most = std::ranges::max_element(by_draw, {}, [](const auto& entry) { return entry.second; });
-    return fail_unnamed(
-        Fault::usage,
-        "{} let red, green and blue through differently, {} of them of {}; a plain deep image has one alpha: choose "
-        "--transmittance mean, or channels for AR, AG and AB besides",
-        plural(count, "fragment"), most->second, most->first);
+    return fail(Fault::usage, "deep.chromatic",
+                "the transmittance of {fragments} fragments differs between red, green and blue ({most} of {draw}), and a plain "
+                "deep image has one alpha: choose --transmittance mean, or channels for AR, AG and AB besides",
+                count, most->second, most->first);
 }
 
 /// Makes lines; one per thread.

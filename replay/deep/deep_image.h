@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "capture_format/frame.h"
 #include "capture_format/result.h"
 #include "passes/reference/fragments.h"
 #include "replay/images/image_io.h"
@@ -35,7 +34,7 @@ struct DeepImage {
     std::uint64_t samples() const;
 };
 
-/// Radiance p + e premultiplied in R, G, B; 1 - t in A; view depth in metres in Z. Of equal depths the nearer (submitted later)
+/// Radiance p + e premultiplied in R, G, B; 1 - t in A; view depth in meters in Z. Of equal depths the nearer (submitted later)
 /// comes first. `sample` is below the view's. Fails (usage) where transmittance is refused, naming how many fragments and
 /// the draw that has most of them; `frame` is the one the rows are of.
 Result<DeepImage> deep_image(const FragmentRows&, std::uint32_t sample, Transmittance, const Frame& frame);

@@ -48,8 +48,8 @@ public:
 
     Result<FlatDeep> run() {
         if (bytes(flat_.image.shape) > largest_image_bytes)
-            return fail_unnamed(Fault::bad_input, "{} x {} pixels are too many to flatten", flat_.window.width,
-                                flat_.window.height);
+            return fail(Fault::bad_input, "deep.too_many_pixels", "{width} x {height} pixels are too many to flatten",
+                        flat_.window.width, flat_.window.height);
         flat_.image.texels.resize(bytes(flat_.image.shape));
         oneapi::tbb::enumerable_thread_specific<DeepBlock> reused;
         oneapi::tbb::parallel_for(std::size_t{0}, file_.blocks(), [&](std::size_t i) {
@@ -98,7 +98,7 @@ Result<FlatDeep> flatten_deep(std::span<const std::byte> bytes, std::string_view
     const auto file = DeepFile::open(bytes, name, part);
     if (!file) return file.error();
     auto flat = Flattening(*file).run();
-    if (!flat) return fail_unnamed(flat.error().fault, "{}: {}", name, flat.error().sentence);
+    if (!flat) return within(flat.error(), "{file}", name);
     return flat;
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "passes/technique.h"
+#include "passes/debug_views.h"
 #include "replay/plural.h"
 
 namespace strata {

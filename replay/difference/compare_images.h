@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "passes/frame_images.h"
 #include "replay/measure/flip.h"
 #include "replay/measure/image_error.h"
 

@@ -14,7 +14,7 @@ ImageComparison in_one_alone(const std::string& image, std::string_view side) {
     return {.image = image, .verdict = Verdict::over, .reason = fmt::format("only {} has it", side)};
 }
 
-Result<ImageComparison> compare_outputs(const std::string& image, const ActImages& a, const ActImages& b,
+Result<ImageComparison> compare_outputs(const std::string& image, const PassImages& a, const PassImages& b,
                                         const ErrorLimits& limits) {
     const HostImage &of_a = a.images.at(image), &of_b = b.images.at(image);
     const bool other_choice = a.choice != b.choice;
@@ -26,36 +26,36 @@ Result<ImageComparison> compare_outputs(const std::string& image, const ActImage
     return compare_images(image, of_a, of_b, limits);
 }
 
-Result<ActComparison> compare_acts(const ActImages& a, const ActImages& b, const ErrorLimits& limits, const SeeImages& see) {
-    ActComparison act{a.label, a.choice, b.choice, {}};
+Result<PassComparison> compare_passes(const PassImages& a, const PassImages& b, const ErrorLimits& limits, const SeeImages& see) {
+    PassComparison pass{a.label, a.choice, b.choice, {}};
     for (const auto& [image, of_a] : a.images) {
         if (!b.images.contains(image)) {
-            act.images.push_back(in_one_alone(image, "A"));
+            pass.images.push_back(in_one_alone(image, "A"));
             continue;
         }
         auto made = compare_outputs(image, a, b, limits);
-        if (!made) return fail_unnamed(made.error().fault, "{}: {}", a.label, made.error().sentence);
+        if (!made) return within(made.error(), "{pass}", a.label);
         if (see && made->verdict != Verdict::not_compared)
-            if (const auto seen = see(act, *made, of_a, b.images.at(image)); !seen) return seen.error();
-        act.images.push_back(*std::move(made));
+            if (const auto seen = see(pass, *made, of_a, b.images.at(image)); !seen) return seen.error();
+        pass.images.push_back(*std::move(made));
     }
     for (const auto& [image, of_b] : b.images)
-        if (!a.images.contains(image)) act.images.push_back(in_one_alone(image, "B"));
-    return act;
+        if (!a.images.contains(image)) pass.images.push_back(in_one_alone(image, "B"));
+    return pass;
 }
 
-/// Notes the act's verdicts, and the first that is over tolerance. FLIP's maps have been seen by now; those of many frames would
+/// Notes the pass's verdicts, and the first that is over tolerance. FLIP's maps have been seen by now; those of many frames would
 /// fill the memory.
-void add(FrameComparison& frame, ActComparison act) {
-    for (ImageComparison& image : act.images) {
+void add(FrameComparison& frame, PassComparison pass) {
+    for (ImageComparison& image : pass.images) {
         if (image.flip) {
             image.flip->map = {};
             image.flip->exposure = {};
         }
         frame.verdict = std::max(frame.verdict, image.verdict);
-        if (image.verdict == Verdict::over && frame.divergence.act.empty()) frame.divergence = {act.label, image.image, ""};
+        if (image.verdict == Verdict::over && frame.divergence.pass.empty()) frame.divergence = {pass.label, image.image, ""};
     }
-    frame.acts.push_back(std::move(act));
+    frame.passes.push_back(std::move(pass));
 }
 
 /// The first step of two equal plans that wrote something else.
@@ -76,19 +76,19 @@ Result<std::string> first_step(const std::vector<StepImages>& a, const std::vect
     return std::string("no image of a step differs: the difference begins in a buffer");
 }
 
-/// Looks into the stage of the act that differs first.
-Result<void> find_step(FrameComparison& frame, std::span<const ActImages> acts_a, const RunToCompare& a, const RunToCompare& b,
+/// Looks into the stage of the pass that differs first.
+Result<void> find_step(FrameComparison& frame, std::span<const PassImages> passes_a, const RunToCompare& a, const RunToCompare& b,
                        const ErrorLimits& limits) {
-    const std::string& label = frame.divergence.act;
+    const std::string& label = frame.divergence.pass;
     if (label.empty()) return {};
-    const auto act = std::ranges::find(frame.acts, label, &ActComparison::label);
-    if (act->choice_a != act->choice_b) {
+    const auto pass = std::ranges::find(frame.passes, label, &PassComparison::label);
+    if (pass->choice_a != pass->choice_b) {
         frame.divergence.step =
             fmt::format("A uses {}, B {}: from here on outputs are compared, not steps",
-                        act->choice_a.empty() ? "nothing" : act->choice_a, act->choice_b.empty() ? "nothing" : act->choice_b);
+                        pass->choice_a.empty() ? "nothing" : pass->choice_a, pass->choice_b.empty() ? "nothing" : pass->choice_b);
         return {};
     }
-    const Stage stage = std::ranges::find(acts_a, label, &ActImages::label)->stage;  // both chose it alike, so both have it
+    const Stage stage = std::ranges::find(passes_a, label, &PassImages::label)->stage;  // both chose it alike, so both have it
     const auto steps_a = a.session.step_images(a.request, stage);
     if (!steps_a) return steps_a.error();
     const auto steps_b = b.session.step_images(b.request, stage);
@@ -103,47 +103,52 @@ Result<void> find_step(FrameComparison& frame, std::span<const ActImages> acts_a
 
 Result<FrameComparison> compare_runs(const RunToCompare& a, const RunToCompare& b, const ErrorLimits& limits,
                                      const SeeImages& see) {
-    const auto acts_a = a.session.act_images(a.request);
-    if (!acts_a) return acts_a.error();
-    const auto acts_b = b.session.act_images(b.request);
-    if (!acts_b) return acts_b.error();
+    const auto passes_a = a.session.pass_images(a.request);
+    if (!passes_a) return passes_a.error();
+    const auto passes_b = b.session.pass_images(b.request);
+    if (!passes_b) return passes_b.error();
     FrameComparison frame{.frame = a.request.variant.frame};
-    // Acts stand in the order of the frame; a stage that only one frame needs is an act without a partner.
-    auto next = acts_b->begin();
-    for (const ActImages& of_a : *acts_a) {
-        const auto partner = std::find_if(next, acts_b->end(), [&](const ActImages& of_b) { return of_b.label == of_a.label; });
-        if (partner == acts_b->end()) {
+    // Passes stand in the order of the frame; a stage that only one frame needs is a pass without a partner.
+    auto next = passes_b->begin();
+    for (const PassImages& of_a : *passes_a) {
+        const auto partner =
+            std::find_if(next, passes_b->end(), [&](const PassImages& of_b) { return of_b.label == of_a.label; });
+        if (partner == passes_b->end()) {
             add(frame, {of_a.label, of_a.choice, "", {in_one_alone("every output", "A")}});
             continue;
         }
         for (; next != partner; ++next) add(frame, {next->label, "", next->choice, {in_one_alone("every output", "B")}});
         next = partner + 1;
-        auto act = compare_acts(of_a, *partner, limits, see);
-        if (!act) return act.error();
-        add(frame, *std::move(act));
+        auto pass = compare_passes(of_a, *partner, limits, see);
+        if (!pass) return pass.error();
+        add(frame, *std::move(pass));
     }
-    for (; next != acts_b->end(); ++next) add(frame, {next->label, "", next->choice, {in_one_alone("every output", "B")}});
-    if (const auto found = find_step(frame, *acts_a, a, b, limits); !found) return found.error();
+    for (; next != passes_b->end(); ++next) add(frame, {next->label, "", next->choice, {in_one_alone("every output", "B")}});
+    if (const auto found = find_step(frame, *passes_a, a, b, limits); !found) return found.error();
     return frame;
 }
 
 Result<FrameComparison> compare_image_sets(const NamedImages& a, const NamedImages& b, const ErrorLimits& limits,
                                            const SeeImages& see) {
     FrameComparison frame;
-    ActComparison act{.label = "images"};
+    PassComparison pass{.label = "images"};
     const bool single = a.size() == 1 && b.size() == 1;
     for (const auto& [image, of_a] : a) {
         const auto of_b = single ? b.begin() : b.find(image);
-        if (of_b == b.end()) return fail_unnamed(Fault::usage, "A has an image '{}' and B has none", image);
+        if (of_b == b.end())
+            return fail(Fault::usage, "difference.image_missing", "{side} has an image '{image}' and {other} has none", "A",
+                        image, "B");
         auto made = compare_images(image, of_a, of_b->second, limits);
         if (!made) return made.error();
         if (see)
-            if (const auto seen = see(act, *made, of_a, of_b->second); !seen) return seen.error();
-        act.images.push_back(*std::move(made));
+            if (const auto seen = see(pass, *made, of_a, of_b->second); !seen) return seen.error();
+        pass.images.push_back(*std::move(made));
     }
     for (const auto& [image, of_b] : b)
-        if (!single && !a.contains(image)) return fail_unnamed(Fault::usage, "B has an image '{}' and A has none", image);
-    add(frame, std::move(act));
+        if (!single && !a.contains(image))
+            return fail(Fault::usage, "difference.image_missing", "{side} has an image '{image}' and {other} has none", "B",
+                        image, "A");
+    add(frame, std::move(pass));
     return frame;
 }
 
@@ -153,8 +158,8 @@ Verdict verdict(const Comparison& comparison) {
     return worst;
 }
 
-std::string case_name(std::size_t frame, const ActComparison& act, const ImageComparison& image) {
-    std::string name = fmt::format("f{:04}.{}.{}", frame, act.label, image.image);
+std::string case_name(std::size_t frame, const PassComparison& pass, const ImageComparison& image) {
+    std::string name = fmt::format("f{:04}.{}.{}", frame, pass.label, image.image);
     std::ranges::replace(name, ' ', '_');
     std::ranges::replace(name, '/', '_');
     return name;

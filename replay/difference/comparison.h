@@ -1,4 +1,4 @@
-// Two runs of a frame, or a frame and images, side by side: a verdict for every act and image, the first act that differs, and
+// Two runs of a frame, or a frame and images, side by side: a verdict for every pass and image, the first pass that differs, and
 // in it the first step.
 #pragma once
 
@@ -8,11 +8,12 @@
 
 #include "replay/difference/compare_images.h"
 #include "replay/session/session.h"
+#include "replay/tables/sheet.h"
 
 namespace strata {
 
-/// An act of a stage in both runs.
-struct ActComparison {
+/// A pass of a stage in both runs.
+struct PassComparison {
     std::string label;               ///< "transparency", "combine at film", or "images" where files are compared
     std::string choice_a, choice_b;  ///< "technique key=value ..."
     std::vector<ImageComparison> images;
@@ -20,13 +21,13 @@ struct ActComparison {
 
 /// Where two runs part.
 struct Divergence {
-    std::string act, image;  ///< empty: nowhere
-    std::string step;        ///< "step 12, shaders/x.comp, writes 'image' (3, 4) ...", or why no step can be named
+    std::string pass, image;  ///< empty: nowhere
+    std::string step;         ///< "step 12, shaders/x.comp, writes 'image' (3, 4) ...", or why no step can be named
 };
 
 struct FrameComparison {
     std::size_t frame = 0;
-    std::vector<ActComparison> acts;
+    std::vector<PassComparison> passes;
     Divergence divergence;
     Verdict verdict = Verdict::same;  ///< the worst of all
 };
@@ -42,6 +43,7 @@ struct Comparison {
     ErrorLimits limits;
     std::vector<FrameComparison> frames;
     std::string tool, rerun;  ///< "strata REVISION", the command line
+    std::string date = {};    ///< utc_date()
 };
 
 /// A run to compare: a session and what to ask of it. Both sides may be one session.
@@ -52,9 +54,9 @@ struct RunToCompare {
 
 /// The images of a comparison while they are there, for pictures of them.
 using SeeImages =
-    std::function<Result<void>(const ActComparison&, const ImageComparison&, const HostImage& a, const HostImage& b)>;
+    std::function<Result<void>(const PassComparison&, const ImageComparison&, const HostImage& a, const HostImage& b)>;
 
-/// Act by act. Fails when images that should have one shape do not.
+/// Pass by pass. Fails when images that should have one shape do not.
 Result<FrameComparison> compare_runs(const RunToCompare& a, const RunToCompare& b, const ErrorLimits&, const SeeImages&);
 
 /// By name; one image on each side is compared whatever its name. Fails where a name is on one side only.
@@ -63,11 +65,15 @@ Result<FrameComparison> compare_image_sets(const NamedImages& a, const NamedImag
 /// The worst verdict of all frames.
 Verdict verdict(const Comparison&);
 
+/// A row for every image of every pass.
+Sheet sheet_of(const Comparison&);
+Page page_of(const Comparison&);
 std::string as_text(const Comparison&);
 std::string as_json(const Comparison&);
-/// JUnit's XML: a suite per frame, a case per act and image. `artefacts` gives a case's files.
-std::string as_junit(const Comparison&, const std::map<std::string, std::string>& artefacts);
+std::string as_csv(const Comparison&);
+/// JUnit's XML: a suite per frame, a case per pass and image. `artifacts` gives a case's files.
+std::string as_junit(const Comparison&, const std::map<std::string, std::string>& artifacts);
 /// "f0003.transparency.color": what files and cases are called by.
-std::string case_name(std::size_t frame, const ActComparison&, const ImageComparison&);
+std::string case_name(std::size_t frame, const PassComparison&, const ImageComparison&);
 
 }  // namespace strata

@@ -5,6 +5,9 @@
 #include <xxhash.h>
 #include <nlohmann/json.hpp>
 
+#include "capture_format/reader.h"
+#include "passes/frame_images.h"
+#include "replay/expectations/expectation_keys.h"
 #include "replay/images/image_io.h"
 #include "replay/plural.h"
 
@@ -14,7 +17,6 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::string_view schema = "strata.expectation";
-constexpr int schema_version = 1;
 
 ordered_json json_of(const ExpectedImage& image) {
     const Shape& s = image.shape;
@@ -51,22 +53,24 @@ ExpectedOn on_from(const ordered_json& json) {
     return {json.at("device"), json.at("driver"), json.at("driver_version"), json.at("cpu"), json.at("vector_width")};
 }
 
-ExpectedAct act_from(const ordered_json& json) {
-    ExpectedAct act{.label = json.at("act"), .choice = json.at("choice"), .images = {}};
-    for (const ordered_json& image : json.at("images")) act.images.push_back(image_from(image));
-    return act;
+ExpectedPass pass_from(const ordered_json& json, const ExpectationKeys& keys) {
+    ExpectedPass pass{.label = json.at(keys.pass), .choice = json.at("choice"), .images = {}};
+    for (const ordered_json& image : json.at("images")) pass.images.push_back(image_from(image));
+    return pass;
 }
 
 Expectation expectation_from(const ordered_json& json) {
-    if (json.at("schema") != schema || json.at("schema_version") != schema_version)
-        throw std::invalid_argument(fmt::format("it is no {} of version {}", schema, schema_version));
+    const int version = json.at("schema_version");
+    if (json.at("schema") != schema || version < 1 || version > expectation_version)
+        throw std::invalid_argument(fmt::format("it is no {} of version 1 to {}", schema, expectation_version));
+    const ExpectationKeys keys = expectation_keys(version);
     Expectation e{.frame = json.at("frame"),
                   .samples = json.at("samples"),
                   .forced = json.at("forced"),
                   .on = on_from(json.at("on")),
                   .tool = json.at("tool"),
-                  .acts = {}};
-    for (const ordered_json& act : json.at("acts")) e.acts.push_back(act_from(act));
+                  .passes = {}};
+    for (const ordered_json& pass : json.at(keys.passes)) e.passes.push_back(pass_from(pass, keys));
     return e;
 }
 
@@ -83,27 +87,28 @@ std::string text(const ExpectedOn& on) {
 Expectation expectation_of(const Session& session, const Request& request, const Run& run) {
     Expectation e{.frame = request.variant.frame, .samples = run.samples, .on = expected_on(session.device())};
     for (const Feature feature : request.variant.force) e.forced.emplace_back(name(feature));
-    for (const ActImages& act : run.acts) {
-        e.acts.push_back({act.label, act.choice, {}});
-        for (const auto& [name, image] : act.images) e.acts.back().images.push_back({name, hash_of(image), image.shape, ""});
+    for (const PassImages& pass : run.passes) {
+        e.passes.push_back({pass.label, pass.choice, {}});
+        for (const auto& [name, image] : pass.images) e.passes.back().images.push_back({name, hash_of(image), image.shape, ""});
     }
     return e;
 }
 
 bool same_frame_and_choices(const Expectation& a, const Expectation& b) {
-    const auto same = [](const ExpectedAct& x, const ExpectedAct& y) { return x.label == y.label && x.choice == y.choice; };
-    return a.frame == b.frame && a.samples == b.samples && a.forced == b.forced && std::ranges::equal(a.acts, b.acts, same);
+    const auto same = [](const ExpectedPass& x, const ExpectedPass& y) { return x.label == y.label && x.choice == y.choice; };
+    return a.frame == b.frame && a.samples == b.samples && a.forced == b.forced && std::ranges::equal(a.passes, b.passes, same);
 }
 
 std::string as_json(const Expectation& e) {
-    ordered_json json{{"schema", schema},   {"schema_version", schema_version},
+    const ExpectationKeys keys = expectation_keys(expectation_version);
+    ordered_json json{{"schema", schema},   {"schema_version", expectation_version},
                       {"frame", e.frame},   {"samples", e.samples},
                       {"forced", e.forced}, {"on", json_of(e.on)},
-                      {"tool", e.tool},     {"acts", ordered_json::array()}};
-    for (const ExpectedAct& act : e.acts) {
+                      {"tool", e.tool},     {keys.passes, ordered_json::array()}};
+    for (const ExpectedPass& pass : e.passes) {
         ordered_json images = ordered_json::array();
-        for (const ExpectedImage& image : act.images) images.push_back(json_of(image));
-        json["acts"].push_back({{"act", act.label}, {"choice", act.choice}, {"images", std::move(images)}});
+        for (const ExpectedImage& image : pass.images) images.push_back(json_of(image));
+        json[keys.passes].push_back({{keys.pass, pass.label}, {"choice", pass.choice}, {"images", std::move(images)}});
     }
     return json.dump();
 }
@@ -112,7 +117,7 @@ Result<Expectation> parse_expectation(std::string_view json) {
     try {
         return expectation_from(ordered_json::parse(json));
     } catch (const std::exception& problem) {
-        return fail_unnamed(Fault::bad_input, "an expectation cannot be read: {}", problem.what());
+        return fail(Fault::bad_input, "expectation.cannot_read", "an expectation cannot be read: {reason}", problem.what());
     }
 }
 
@@ -128,8 +133,8 @@ Result<std::vector<Expectation>> expectations_of(const Capture& capture) {
 
 std::string short_json(const Expectation& e) {
     ordered_json json{{"frame", e.frame}, {"on", json_of(e.on)}};
-    for (const ExpectedAct& act : e.acts)
-        for (const ExpectedImage& image : act.images) json["hashes"][act.label][image.name] = image.hash;
+    for (const ExpectedPass& pass : e.passes)
+        for (const ExpectedImage& image : pass.images) json["hashes"][pass.label][image.name] = image.hash;
     return json.dump();
 }
 

@@ -1,5 +1,5 @@
 // What a replay of a frame is expected to give, on one device with one choice of techniques: a hash of every image that every
-// act wrote, and perhaps the images. A capture keeps any number of them as JSON; the newest for a device, frame and choice
+// pass wrote, and perhaps the images. A capture keeps any number of them as JSON; the newest for a device, frame and choice
 // counts.
 #pragma once
 
@@ -28,8 +28,8 @@ struct ExpectedImage {
     std::string texels;  ///< what Capture::expected_image() finds them by; empty: only the hash is kept
 };
 
-struct ExpectedAct {
-    std::string label, choice;  ///< as in ActImages
+struct ExpectedPass {
+    std::string label, choice;  ///< as in PassImages
     std::vector<ExpectedImage> images;
 };
 
@@ -39,10 +39,10 @@ struct Expectation {
     std::vector<std::string> forced;  ///< features, in the order of the command line
     ExpectedOn on;
     std::string tool;  ///< revision that wrote it
-    std::vector<ExpectedAct> acts;
+    std::vector<ExpectedPass> passes;
 };
 
-/// What a run with Acts::brought_back gave, as an expectation without kept images.
+/// What a run with Passes::read_back gave, as an expectation without kept images.
 Expectation expectation_of(const Session&, const Request&, const Run&);
 
 /// Whether both are of one frame and made the same way, wherever they ran.
@@ -54,7 +54,7 @@ Result<Expectation> parse_expectation(std::string_view json);
 /// All of a capture's, oldest first.
 Result<std::vector<Expectation>> expectations_of(const Capture&);
 
-/// The hashes alone, by act and image: what would be accepted, on one line of JSON.
+/// The hashes alone, by pass and image: what would be accepted, on one line of JSON.
 std::string short_json(const Expectation&);
 
 }  // namespace strata

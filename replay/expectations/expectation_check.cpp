@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/reader.h"
 #include "replay/measure/image_error.h"
 
 namespace strata {
@@ -16,9 +17,9 @@ Result<std::optional<HostImage>> kept_image(const Capture& capture, const Expect
     });
 }
 
-const ExpectedImage* find(const ExpectedAct& act, std::string_view name) {
-    const auto found = std::ranges::find(act.images, name, &ExpectedImage::name);
-    return found == act.images.end() ? nullptr : &*found;
+const ExpectedImage* find(const ExpectedPass& pass, std::string_view name) {
+    const auto found = std::ranges::find(pass.images, name, &ExpectedImage::name);
+    return found == pass.images.end() ? nullptr : &*found;
 }
 
 Result<ImageVerdict> judge_image(const Capture& capture, const ExpectedImage& expected, const HostImage& got, double tolerance) {
@@ -34,9 +35,9 @@ Result<ImageVerdict> judge_image(const Capture& capture, const ExpectedImage& ex
     return verdict;
 }
 
-/// The acts of both are the same ones: see same_frame_and_choices().
-Result<void> judge_act(const Capture& capture, const ExpectedAct& expected, const ExpectedAct& got, const ActImages& images,
-                       double tolerance, std::vector<ImageVerdict>& verdicts) {
+/// The passes of both are the same ones: see same_frame_and_choices().
+Result<void> judge_pass(const Capture& capture, const ExpectedPass& expected, const ExpectedPass& got, const PassImages& images,
+                        double tolerance, std::vector<ImageVerdict>& verdicts) {
     for (const ExpectedImage& image : got.images) {
         const ExpectedImage* wanted = find(expected, image.name);
         ImageVerdict verdict{.image = image.name, .agreement = Agreement::diverges};
@@ -48,7 +49,7 @@ Result<void> judge_act(const Capture& capture, const ExpectedAct& expected, cons
             if (!judged) return judged.error();
             verdict = *std::move(judged);
         }
-        verdict.act = got.label;
+        verdict.pass = got.label;
         verdict.hash = image.hash;
         verdicts.push_back(std::move(verdict));
     }
@@ -88,8 +89,8 @@ Result<ExpectationVerdict> compare_with(const Capture& capture, const Expectatio
                                         const Expectation& got, double tolerance) {
     ExpectationVerdict verdict{.agreement = Agreement::exact};
     if (expected.on != got.on) verdict.elsewhere = expected.on;
-    for (std::size_t i = 0; i < got.acts.size(); ++i)
-        if (const auto judged = judge_act(capture, expected.acts[i], got.acts[i], run.acts[i], tolerance, verdict.images);
+    for (std::size_t i = 0; i < got.passes.size(); ++i)
+        if (const auto judged = judge_pass(capture, expected.passes[i], got.passes[i], run.passes[i], tolerance, verdict.images);
             !judged)
             return judged.error();
     for (const ImageVerdict& image : verdict.images) verdict.agreement = std::max(verdict.agreement, image.agreement);
@@ -112,7 +113,7 @@ Result<ExpectationVerdict> check_expectations(const Capture& capture, std::span<
 }
 
 std::string sentence(const ImageVerdict& verdict) {
-    std::string text = fmt::format("{}: '{}'", verdict.act, verdict.image);
+    std::string text = fmt::format("{}: '{}'", verdict.pass, verdict.image);
     if (verdict.expected_hash.empty()) return text + " was not expected at all";
     if (verdict.hash.empty()) return text + " was expected and is not there";
     if (verdict.agreement == Agreement::exact) return text + " is bit for bit as expected";

@@ -1,4 +1,4 @@
-// A run against what its capture expects: exact hashes first, then a tolerance where images are kept; and the first act that
+// A run against what its capture expects: exact hashes first, then a tolerance where images are kept; and the first pass that
 // is not as it should be.
 #pragma once
 
@@ -22,7 +22,7 @@ ImageDeviation deviation_of(const std::string& name, const HostImage& got, const
 enum class Agreement { exact, within_tolerance, diverges, no_expectation };
 
 struct ImageVerdict {
-    std::string act, image;
+    std::string pass, image;
     Agreement agreement = Agreement::exact;
     std::optional<ImageDeviation> deviation;  ///< where the expected image is kept and the hashes differ
     std::string expected_hash, hash;          ///< either may be empty: an image more, or one less
@@ -31,7 +31,7 @@ struct ImageVerdict {
 struct ExpectationVerdict {
     Agreement agreement = Agreement::no_expectation;
     std::optional<ExpectedOn> elsewhere;  ///< whose expectation it was, where it was not this device's
-    std::vector<ImageVerdict> images;     ///< act by act; empty without an expectation
+    std::vector<ImageVerdict> images;     ///< pass by pass; empty without an expectation
     /// The first image that is not as expected; null when there is none.
     const ImageVerdict* first_divergence() const;
 };
@@ -47,7 +47,7 @@ Result<ExpectationVerdict> check_expectations(const Capture&, std::span<const Ex
 Result<ExpectationVerdict> compare_with(const Capture&, const Expectation& expected, const Run& run, const Expectation& got,
                                         double tolerance);
 
-/// One sentence: which act and image, how far, the worst texel with both values.
+/// One sentence: which pass and image, how far, the worst texel with both values.
 std::string sentence(const ImageVerdict&);
 
 }  // namespace strata

@@ -96,9 +96,11 @@ Result<Compiled> compile_one(const GlslSources& sources, const std::string& shad
     for (const std::string& word : {std::string("-o"), spirv.string(), (home / name).string()}) arguments.push_back(word);
     const auto ended = run_process({std::move(arguments), own_environment()});
     if (!ended)
-        return fail_unnamed(Fault::usage, "{}; shaders are compiled with it: install glslang-tools", ended.error().sentence);
+        return fail(Fault::usage, "glsl.no_compiler", "{reason}; shaders are compiled with it: install glslang-tools",
+                    ended.error().sentence);
     if (WIFSIGNALED(ended->status))
-        return fail_unnamed(Fault::bad_input, "{} crashed on {} ({})", compiler, name, strsignal(WTERMSIG(ended->status)));
+        return fail(Fault::bad_input, "glsl.compiler_crashed", "{compiler} crashed on {shader} ({signal})", compiler, name,
+                    strsignal(WTERMSIG(ended->status)));
     if (WEXITSTATUS(ended->status) != 0) return Compiled{{}, complaints(fmt::format("{}{}", ended->out, ended->err), others)};
     return Compiled{words_of(spirv), {}};
 }
@@ -112,7 +114,8 @@ Error error_of(std::span<const std::string> shaders, std::span<const Compiled> a
         for (const std::string& line : all[i].said)
             if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
     }
-    return fail_unnamed(Fault::bad_input, "{}\nnot compiled: {}", fmt::join(lines, "\n"), fmt::join(failed, ", "));
+    return fail(Fault::bad_input, "glsl.not_compiled", "{messages}\nnot compiled: {shaders}",
+                fmt::format("{}", fmt::join(lines, "\n")), fmt::format("{}", fmt::join(failed, ", ")));
 }
 
 }  // namespace
@@ -121,7 +124,8 @@ Result<std::vector<std::vector<std::uint32_t>>> compile_glsl(const GlslSources& 
                                                              const std::stop_token& stop) {
     if (shaders.empty()) return std::vector<std::vector<std::uint32_t>>();
     const TemporaryFolder others;
-    if (others.path().empty()) return fail_unnamed(Fault::usage, "cannot make a temporary folder to compile shaders in");
+    if (others.path().empty())
+        return fail(Fault::usage, "glsl.no_temporary_folder", "cannot make a temporary folder to compile shaders in");
     if (const auto written = sources.write_others(others.path()); !written) return written.error();
     std::vector<std::optional<Result<Compiled>>> results(shaders.size());
     std::atomic<std::size_t> next = 0;
@@ -136,7 +140,7 @@ Result<std::vector<std::vector<std::uint32_t>>> compile_glsl(const GlslSources& 
     }
     std::vector<Compiled> all;
     for (auto& result : results) {
-        if (!result) return fail_unnamed(Fault::stopped, "stopped while shaders were compiled");
+        if (!result) return fail(Fault::stopped, "session.stopped", "stopped while shaders were compiled");
         if (!*result) return result->error();
         all.push_back(**std::move(result));
     }

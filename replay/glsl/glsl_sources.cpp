@@ -62,23 +62,27 @@ Result<void> GlslSources::read_folder() {
         if (const auto read = read_file(entry->path(), name); !read) return read;
         any = true;
     }
-    if (problem) return fail_unnamed(Fault::usage, "cannot read the shaders of {}: {}", root.string(), problem.message());
-    if (!any) return fail_unnamed(Fault::usage, "{} holds no shaders; they are looked for below its passes/", folder_.string());
+    if (problem)
+        return fail(Fault::usage, "glsl.cannot_read_folder", "cannot read the shaders of {folder}: {reason}", root.string(),
+                    problem.message());
+    if (!any)
+        return fail(Fault::usage, "glsl.no_shaders", "{folder} holds no shaders; they are looked for below its passes/",
+                    folder_.string());
     return {};
 }
 
 Result<void> GlslSources::read_file(const std::filesystem::path& path, const std::string& name) {
     std::error_code problem;
     if (std::filesystem::file_size(path, problem) > largest_source || problem)
-        return fail_unnamed(Fault::bad_input, "{} is no shader, or too large for one", path.string());
+        return fail(Fault::bad_input, "glsl.not_a_shader", "{file} is not a shader, or too large for one", path.string());
     std::ifstream file(path, std::ios::binary);
     File read{{std::istreambuf_iterator<char>(file), {}}, true};
-    if (!file) return fail_unnamed(Fault::bad_input, "cannot read {}", path.string());
+    if (!file) return fail(Fault::bad_input, "file.cannot_read", "cannot read {file}", path.string());
     const auto known = files_.find(name);
     if (is_shared(name) && known != files_.end() && known->second.text != read.text)
-        return fail_unnamed(
-            Fault::usage, "{} differs from what the program was built with and is also compiled as C++: build the program again",
-            path.string());
+        return fail(Fault::usage, "glsl.shared_header_differs",
+                    "{file} differs from what the program was built with and is also compiled as C++: build the program again",
+                    path.string());
     files_[name] = std::move(read);
     return {};
 }
@@ -112,7 +116,7 @@ Result<void> GlslSources::write_others(const std::filesystem::path& to) const {
         std::ofstream out(path, std::ios::binary);
         out.write(file.text.data(), static_cast<std::streamsize>(file.text.size()));
         out.close();
-        if (!out) return fail_unnamed(Fault::usage, "cannot write {}", path.string());
+        if (!out) return fail(Fault::usage, "file.cannot_write", "cannot write {file}", path.string());
     }
     return {};
 }

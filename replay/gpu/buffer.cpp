@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "passes/stages.h"
 #include "replay/gpu/opened_device.h"
 
 namespace strata {

@@ -3,6 +3,7 @@
 #include <array>
 #include <deque>
 
+#include "passes/frame_images.h"
 #include "replay/gpu/opened_device.h"
 
 namespace strata {

@@ -102,7 +102,8 @@ Result<void> leave_out(std::vector<DeviceInfo>& devices, const std::vector<std::
             for (DeviceInfo& device : devices) std::erase(device.capabilities, capability);
         }
         if (!is_known)
-            return fail_unnamed(Fault::usage, "no device feature is called '{}'{}", wanted, did_you_mean(wanted, known));
+            return fail(Fault::usage, "device.unknown_feature", "no device feature is called '{feature}'{suggestion}", wanted,
+                        did_you_mean(wanted, known));
     }
     return {};
 }
@@ -136,11 +137,15 @@ Result<DeviceInfo> choose(const std::vector<DeviceInfo>& devices, const std::str
     for (const DeviceInfo& device : devices) {
         if (is_meant(device, gpu) && (!best || order(device) < order(*best))) best = &device;
     }
-    if (!best && gpu.empty()) return fail_unnamed(Fault::device_lacks, "this machine has no Vulkan device");
-    if (!best) return fail_unnamed(Fault::usage, "no device is called '{}'; there are:{}", gpu, list_of(devices));
+    if (!best && gpu.empty()) return fail(Fault::device_lacks, "device.none", "this machine has no Vulkan device");
+    if (!best)
+        return fail(Fault::usage, "device.unknown", "no device is called '{device}'; there are:{known}", gpu, list_of(devices));
     if (best->lacks.empty()) return *best;
-    if (gpu.empty()) return fail_unnamed(Fault::device_lacks, "no device of this machine can replay:{}", list_of(devices));
-    return fail_unnamed(Fault::device_lacks, "{} lacks {}; there are:{}", best->name, best->lacks, list_of(devices));
+    if (gpu.empty())
+        return fail(Fault::device_lacks, "device.none_can_replay", "no device of this machine can replay:{known}",
+                    list_of(devices));
+    return fail(Fault::device_lacks, "device.lacks_feature", "{device} lacks {feature}; there are:{known}", best->name,
+                best->lacks, list_of(devices));
 }
 
 }  // namespace
@@ -151,7 +156,8 @@ Result<std::vector<DeviceInfo>> list_devices() {
     try {
         return describe_all(instance->handle().enumeratePhysicalDevices());
     } catch (const vk::SystemError& problem) {
-        return fail_unnamed(Fault::device_lacks, "the devices of this machine cannot be listed: {}", problem.what());
+        return fail(Fault::device_lacks, "device.cannot_list", "the devices of this machine cannot be listed: {reason}",
+                    problem.what());
     }
 }
 
@@ -169,11 +175,13 @@ Result<std::unique_ptr<Device>> Device::open(const DeviceChoice& choice) {
         return std::unique_ptr<Device>(
             std::make_unique<OpenedDevice>(*std::move(instance), std::move(physical), *chosen, choice.memory_budget));
     } catch (const vk::OutOfDeviceMemoryError& problem) {
-        return fail_unnamed(Fault::device_lacks, "the device has too little memory to be opened: {}", problem.what());
+        return fail(Fault::device_lacks, "device.out_of_memory", "the device has too little memory to be opened: {reason}",
+                    problem.what());
     } catch (const vk::OutOfHostMemoryError& problem) {
-        return fail_unnamed(Fault::device_lacks, "this machine has too little memory to open the device: {}", problem.what());
+        return fail(Fault::device_lacks, "device.out_of_host_memory",
+                    "this machine has too little memory to open the device: {reason}", problem.what());
     } catch (const vk::SystemError& problem) {
-        return fail_unnamed(Fault::device_failed, "the device cannot be opened: {}", problem.what());
+        return fail(Fault::device_failed, "device.cannot_open", "the device cannot be opened: {reason}", problem.what());
     }
 }
 

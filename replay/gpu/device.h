@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "capture_format/result.h"
-#include "passes/technique.h"
+#include "passes/capability.h"
 
 namespace strata {
 

@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <set>
 
+#include "capture_format/frame.h"
+#include "passes/settings.h"
 #include "replay/gpu/device_memory.h"
+#include "replay/gpu/host_timer.h"
 #include "replay/gpu/opened_device.h"
 #include "replay/gpu/plan_memory.h"
 #include "replay/gpu/readback.h"
 #include "replay/gpu/sample_layers.h"
 #include "replay/gpu/step_recorder.h"
 #include "replay/gpu/stopwatch.h"
-#include "replay/measure/host_timer.h"
 
 namespace strata {
 namespace {
@@ -131,22 +133,25 @@ void VulkanExecutor::as_device_failure(std::string place, Action action) {
             throw;
         }
     } catch (const vk::DeviceLostError& problem) {
-        throw DeviceLost(fmt::format("{}: {}", place_, problem.what()));
+        throw DeviceLost("device.lost", fmt::format("{}: {}", place_, problem.what()));
     } catch (const vk::OutOfDeviceMemoryError& problem) {
-        throw MemoryLacks(fmt::format("{}: the device has too little memory ({})", place_, problem.what()));
+        throw MemoryLacks("device.out_of_memory",
+                          fmt::format("{}: the device has too little memory ({})", place_, problem.what()));
     } catch (const vk::OutOfHostMemoryError& problem) {
-        throw MemoryLacks(fmt::format("{}: this machine has too little memory for the driver ({})", place_, problem.what()));
+        throw MemoryLacks("device.out_of_host_memory",
+                          fmt::format("{}: this machine has too little memory for the driver ({})", place_, problem.what()));
     } catch (const vk::SystemError& problem) {
-        throw DeviceFailure(fmt::format("{}: {}", place_, problem.what()));
+        throw DeviceFailure("device.failed", fmt::format("{}: {}", place_, problem.what()));
     } catch (const std::out_of_range&) {
-        throw DeviceFailure(fmt::format("{}: an imported resource was never made", place_));
+        throw DeviceFailure("device.no_import", fmt::format("{}: an imported resource was never made", place_));
     }
 }
 
 void VulkanExecutor::fail_on_messages() {
     if (!device_->instance().has_messages()) return;
     const auto messages = device_->take_messages();
-    throw DeviceFailure(fmt::format("{}: the validation layer says ({} in all): {}", place_, messages.size(), messages.front()));
+    throw DeviceFailure("device.validation_message",
+                        fmt::format("{}: the validation layer says ({} in all): {}", place_, messages.size(), messages.front()));
 }
 
 Execution VulkanExecutor::record_and_submit(const Plan& plan, const RunOptions& options) {
@@ -169,7 +174,7 @@ Execution VulkanExecutor::record_and_submit(const Plan& plan, const RunOptions& 
     const std::size_t pipelines_before = pipelines_->created();
 
     pipelines_->make(plan, steps_to_run(plan, options), options.stop);
-    if (options.stop.stop_requested()) throw DeviceFailure("stopped");
+    if (options.stop.stop_requested()) throw DeviceFailure("session.stopped", "stopped");
     auto commands = device_->begin_commands();
     try {
         record(commands, frame);
@@ -242,8 +247,8 @@ void VulkanExecutor::record_peeks(const vk::raii::CommandBuffer& commands, Frame
         const Peek& peek = frame.options.peeks[i];
         if (peek.step != step) continue;
         if (!frame.resources.holds(peek.image)) {
-            throw DeviceFailure(
-                fmt::format("{}: the image {} holds nothing after this step", place_, frame.plan.images[peek.image.id].name));
+            throw DeviceFailure("device.image_holds_nothing", fmt::format("{}: the image {} holds nothing after this step",
+                                                                          place_, frame.plan.images[peek.image.id].name));
         }
         frame.peeked[i] = copy_out(commands, frame.resources.image(peek.image), frame.peeks, peek.texel);
     }

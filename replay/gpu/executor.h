@@ -20,7 +20,11 @@ namespace strata {
 /// The device collapsed or the validation layer complained; what() names the step.
 class DeviceFailure : public std::runtime_error {
 public:
-    using std::runtime_error::runtime_error;
+    DeviceFailure(ErrorId id, const std::string& what) : std::runtime_error(what), id_(id) {}
+    ErrorId id() const { return id_; }
+
+private:
+    ErrorId id_;
 };
 
 /// Nothing works any more on this device.

@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <utility>
 
+#include <fmt/core.h>
+
+#include "passes/stages.h"
 #include "replay/gpu/format_table.h"
 
 namespace strata {

@@ -2,13 +2,14 @@
 // subgroup arithmetic, and a queue that does everything.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <vulkan/vulkan_raii.hpp>
 
-#include "passes/technique.h"
+#include "passes/capability.h"
 
 namespace strata {
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "passes/graph/step.h"
+
 namespace strata {
 namespace {
 

@@ -3,9 +3,11 @@
 
 #include <vulkan/vulkan_raii.hpp>
 
-#include "passes/graph/graph.h"
+#include "passes/graph/format.h"
 
 namespace strata {
+
+struct Shape;  // passes/graph/step.h
 
 vk::Format device_format(Format);
 vk::ImageAspectFlags aspect_of(Format);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "passes/stages.h"
 #include "replay/gpu/format_table.h"
 #include "replay/gpu/opened_device.h"
 

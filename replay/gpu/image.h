@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "passes/graph/graph.h"
+#include "passes/graph/step.h"
 #include "replay/gpu/memory.h"
 
 namespace strata {

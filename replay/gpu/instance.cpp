@@ -77,13 +77,13 @@ Result<Instance> Instance::create(Validation validation, std::span<const char* c
     try {
         vk::raii::Context context;
         if (validation == Validation::on && !has_layer(context)) {
-            return fail_unnamed(Fault::device_lacks, "validation needs the layer {}: install vulkan-validationlayers",
-                                validation_layer);
+            return fail(Fault::device_lacks, "device.no_validation_layer",
+                        "validation needs the layer {layer}: install vulkan-validationlayers", validation_layer);
         }
         return Instance(std::move(context), validation, extensions);
     } catch (const std::exception& problem) {  // no loader is a runtime_error, no driver a vk::SystemError
-        return fail_unnamed(Fault::device_lacks, "no Vulkan on this machine ({}): install a driver, mesa-vulkan-drivers at least",
-                            problem.what());
+        return fail(Fault::device_lacks, "device.no_vulkan",
+                    "no Vulkan on this machine ({reason}): install a driver, mesa-vulkan-drivers at least", problem.what());
     }
 }
 

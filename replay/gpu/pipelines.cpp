@@ -10,10 +10,11 @@
 
 #include "passes/graph/reached_code.h"
 #include "passes/graph/shader.h"
+#include "passes/stages.h"
 #include "replay/gpu/format_table.h"
+#include "replay/gpu/host_timer.h"
 #include "replay/gpu/opened_device.h"
 #include "replay/gpu/raster_state.h"
-#include "replay/measure/host_timer.h"
 
 namespace strata {
 namespace {

@@ -1,5 +1,6 @@
 #include "replay/gpu/plan_memory.h"
 
+#include "passes/frame_images.h"
 #include "replay/gpu/opened_device.h"
 
 namespace strata {

@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "passes/frame_images.h"
+#include "passes/graph/graph.h"
 #include "replay/gpu/step_recorder.h"
 
 namespace strata {

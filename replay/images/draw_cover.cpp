@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/raster.h"
 

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "capture_format/frame.h"
-#include "passes/reference/image.h"
-
 namespace strata {
+
+struct Frame;           // capture_format/frame.h
+struct ReferenceImage;  // passes/reference/image.h
 
 enum class Cover : std::uint8_t {
     none,    ///< the draw is not there

@@ -9,7 +9,7 @@
 
 #include <glm/glm.hpp>
 
-#include "passes/graph/graph.h"
+#include "passes/graph/step.h"
 #include "passes/reference/image.h"
 
 namespace strata {

@@ -152,10 +152,11 @@ const ChannelRow* find_channels(const Imf::ChannelList& channels) {
 Result<HostImage> read_part(Imf::MultiPartInputFile& file, int index, MemoryBudget& budget) {
     const Imf::Header& header = file.header(index);
     if (header.hasType() && Imf::isDeepData(header.type()))
-        return fail_unnamed(Fault::bad_input, "part {} is deep, not flat", index);
+        return fail(Fault::bad_input, "image.deep_part", "part {part} is deep, not flat", index);
     const ChannelRow* channels = find_channels(header.channels());
     if (!channels)
-        return fail_unnamed(Fault::bad_input, "the channels of part {} are not Z, Y, RG, RGB or RGBA of one type", index);
+        return fail(Fault::bad_input, "image.channels", "the channels of part {part} are not Z, Y, RG, RGB or RGBA of one type",
+                    index);
     const Imf::PixelType type = header.channels().begin().channel().type;
     HostImage image{{.format = type == Imf::HALF ? channels->half : type == Imf::UINT ? channels->whole : channels->real}, {}};
     const auto window = header.dataWindow();
@@ -167,7 +168,8 @@ Result<HostImage> read_part(Imf::MultiPartInputFile& file, int index, MemoryBudg
     const auto from = [](int at, int origin) { return static_cast<int>(std::int64_t{at} - origin); };
     image.place = {from(window.min.x, display.x), from(window.min.y, display.y)};
     if (std::max(extent.width, extent.height) > largest_edge)
-        return fail_unnamed(Fault::bad_input, "part {} claims {} x {} texels", index, extent.width, extent.height);
+        return fail(Fault::bad_input, "image.too_large", "part {part} claims {width} x {height} texels", index, extent.width,
+                    extent.height);
     const std::string what = fmt::format("part {} of {} x {} texels", index, extent.width, extent.height);
     if (const auto room = budget.take(bytes(image.shape), exr_bytes_per_byte, what); !room) return room.error();
     image.texels.resize(bytes(image.shape));
@@ -201,14 +203,16 @@ Result<void> add_part(NamedImages& images, const std::string& in_file, HostImage
     const auto known = images.find(name);
     const std::uint32_t expected = known == images.end() ? 0 : known->second.shape.layers;
     if (layer.value_or(0) != expected)
-        return fail_unnamed(Fault::bad_input, "part '{}' comes where layer {} of '{}' was expected", part, expected, name);
+        return fail(Fault::bad_input, "image.layer_order", "part '{part}' comes where layer {layer} of '{image}' was expected",
+                    part, expected, name);
     if (known == images.end()) {
         images.emplace(name, std::move(read));
         return {};
     }
     Shape& shape = known->second.shape;
     if (read.shape.extent != shape.extent || read.shape.format != shape.format || read.place != known->second.place)
-        return fail_unnamed(Fault::bad_input, "part '{}' has not the size, place and channels of the layers before it", part);
+        return fail(Fault::bad_input, "image.layers_differ",
+                    "part '{part}' differs from the layers before it in size, place or channels", part);
     known->second.texels.insert(known->second.texels.end(), read.texels.begin(), read.texels.end());
     ++shape.layers;
     return {};
@@ -241,7 +245,7 @@ Result<void> write_exr(const std::filesystem::path& path, const NamedImages& ima
             output.writePixels(static_cast<int>(part.height));
         }
     } catch (const std::exception& problem) {
-        return fail_unnamed(Fault::usage, "cannot write {}: {}", path.string(), problem.what());
+        return fail(Fault::usage, "image.cannot_encode", "cannot write {file}: {reason}", path.string(), problem.what());
     }
     return write_whole_file(path, stream.str());
 }
@@ -257,14 +261,14 @@ Result<NamedImages> read_exr(const std::filesystem::path& path, MemoryBudget& bu
         NamedImages images;
         for (int part = 0; part < file.parts(); ++part) {
             auto image = read_part(file, part, budget);
-            if (!image) return fail_unnamed(image.error().fault, "cannot read {}: {}", path.string(), image.error().sentence);
+            if (!image) return within(image.error(), "cannot read {file}", path.string());
             const std::string name = file.header(part).hasName() ? file.header(part).name() : "image";
             if (const auto added = add_part(images, name, *std::move(image)); !added)
-                return fail_unnamed(Fault::bad_input, "cannot read {}: {}", path.string(), added.error().sentence);
+                return within(added.error(), "cannot read {file}", path.string());
         }
         return images;
     } catch (const std::exception& problem) {
-        return fail_unnamed(Fault::bad_input, "cannot read {}: {}", path.string(), problem.what());
+        return fail(Fault::bad_input, "image.cannot_read", "cannot read {file}: {reason}", path.string(), problem.what());
     }
 }
 
@@ -306,19 +310,21 @@ Result<HostImage> read_png(const std::filesystem::path& path) {
 Result<HostImage> read_png(const std::filesystem::path& path, MemoryBudget& budget) {
     int width = 0, height = 0, channels = 0;
     if (!stbi_info(path.c_str(), &width, &height, &channels))
-        return fail_unnamed(Fault::bad_input, "cannot read {}: {}", path.string(), png_problem());
+        return fail(Fault::bad_input, "image.cannot_read", "cannot read {file}: {reason}", path.string(), png_problem());
     const auto wide = static_cast<std::uint32_t>(width), high = static_cast<std::uint32_t>(height);
     HostImage image{{.extent = {wide, high, 1}, .format = Format::rgba8_unorm}, {}};
     if (std::max(wide, high) > largest_edge)
-        return fail_unnamed(Fault::bad_input, "cannot read {}: it claims {} x {} texels", path.string(), wide, high);
+        return fail(Fault::bad_input, "image.too_large", "cannot read {file}: it claims {width} x {height} texels", path.string(),
+                    wide, high);
     const std::string what = fmt::format("{} of {} x {} texels", path.string(), wide, high);
     if (const auto room = budget.has_room(bytes(image.shape), png_bytes_per_byte, what); !room) return room.error();
     if (const auto taken = budget.take(bytes(image.shape), 1, what); !taken) return taken.error();
     if (stbi_is_16_bit(path.c_str()))
-        return fail_unnamed(Fault::bad_input, "cannot read {}: it has 16 bits per channel; convert it to EXR", path.string());
+        return fail(Fault::bad_input, "image.sixteen_bits", "cannot read {file}: it has 16 bits per channel; convert it to EXR",
+                    path.string());
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(stbi_load(path.c_str(), &width, &height, &channels, STBI_rgb_alpha),
                                                            stbi_image_free);
-    if (!pixels) return fail_unnamed(Fault::bad_input, "cannot read {}: {}", path.string(), png_problem());
+    if (!pixels) return fail(Fault::bad_input, "image.cannot_read", "cannot read {file}: {reason}", path.string(), png_problem());
     const auto texels = std::as_bytes(std::span(pixels.get(), bytes(image.shape)));
     image.texels.assign(texels.begin(), texels.end());
     return image;

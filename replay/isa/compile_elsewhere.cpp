@@ -66,15 +66,16 @@ Result<EndedProcess> run(const CompileJob& job, std::vector<std::string> environ
 
 Result<Compilation> compilation_of(const EndedProcess& ended, std::string_view target) {
     if (WIFSIGNALED(ended.status))
-        return fail_unnamed(Fault::device_failed, "the compiler for {} crashed ({}): {}", target,
-                            strsignal(WTERMSIG(ended.status)), ended.err.empty() ? "it said nothing" : last_line(ended.err));
+        return fail(Fault::device_failed, "isa.compiler_crashed", "the compiler for {target} crashed ({signal}): {reason}",
+                    target, strsignal(WTERMSIG(ended.status)), ended.err.empty() ? "it said nothing" : last_line(ended.err));
     const int code = WEXITSTATUS(ended.status);
     if (code == 0) return compilation_from_json(ended.out);
     constexpr std::string_view prefix = "strata: ";
     std::string sentence = last_line(ended.err);
     if (sentence.starts_with(prefix)) sentence.erase(0, prefix.size());
     const bool is_fault = code <= static_cast<int>(Fault::not_repeatable);
-    return fail_unnamed(is_fault ? static_cast<Fault>(code) : Fault::device_failed, "compiling for {}: {}", target, sentence);
+    return fail(is_fault ? static_cast<Fault>(code) : Fault::device_failed, "isa.compiler_failed",
+                "compiling for {target}: {reason}", target, sentence);
 }
 
 }  // namespace
@@ -102,9 +103,8 @@ Result<std::string> find_radv(const char* const* environment) {
             if (is_radv(entry.path())) add(entry.path());
     }
     if (found.empty())
-        return fail_unnamed(
-            Fault::device_lacks,
-            "compiling for a GPU that is not there needs Mesa's RADV (radeon_icd.*.json): install mesa-vulkan-drivers");
+        return fail(Fault::device_lacks, "isa.no_radv",
+                    "compiling for a GPU that is not there needs Mesa's RADV (radeon_icd.*.json): install mesa-vulkan-drivers");
     return found;
 }
 
@@ -112,8 +112,8 @@ Result<Compilation> compile_elsewhere(const std::vector<PipelineRequest>& reques
     std::string drivers;
     if (job.model) {
         if (job.model->family.empty())
-            return fail_unnamed(Fault::usage, "RADV does not compile for {}; run on one and leave --gpu-model away",
-                                job.model->name);
+            return fail(Fault::usage, "isa.model_not_in_radv",
+                        "RADV does not compile for {model}; run on one and leave --gpu-model away", job.model->name);
         auto radv = find_radv(job.environment);
         if (!radv) return radv.error();
         drivers = *std::move(radv);

@@ -64,7 +64,7 @@ Result<Compilation> compilation_from_json(const std::string& text) {
         }
         return compilation;
     } catch (const nlohmann::json::exception& problem) {
-        return fail_unnamed(Fault::bad_input, "this is no list of compiled pipelines: {}", problem.what());
+        return fail(Fault::bad_input, "isa.malformed_compilation", "not a list of compiled pipelines: {reason}", problem.what());
     }
 }
 

@@ -1,5 +1,7 @@
 #include "replay/isa/compiler.h"
 
+#include <cstring>
+
 #include <vulkan/vulkan_raii.hpp>
 
 #include "replay/gpu/feature_table.h"
@@ -86,9 +88,9 @@ Result<Compilation> compile_on(const vk::raii::PhysicalDevice& physical, std::sp
                             fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data()),
                             {}};
     if (!describes_pipelines(physical))
-        return fail_unnamed(Fault::device_lacks,
-                            "{} lacks {}: it does not say what it compiled; name a GPU that is not there with --gpu-model",
-                            compilation.device, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+        return fail(Fault::device_lacks, "device.lacks_feature",
+                    "{device} lacks {feature}: it does not say what it compiled; name a GPU that is not there with --gpu-model",
+                    compilation.device, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
     const auto device = make_device(physical, capabilities_of(physical), PipelineDescriptions::on);
     for (const PipelineRequest& request : requests) {
         try {
@@ -107,10 +109,10 @@ Result<Compilation> compile_here(std::span<const PipelineRequest> requests, std:
     if (!instance) return instance.error();
     try {
         const auto devices = instance->handle().enumeratePhysicalDevices();
-        if (device >= devices.size()) return fail_unnamed(Fault::device_lacks, "there is no device {}", device);
+        if (device >= devices.size()) return fail(Fault::device_lacks, "device.unknown", "there is no device {device}", device);
         return compile_on(devices[device], requests, texts);
     } catch (const vk::SystemError& problem) {
-        return fail_unnamed(Fault::device_lacks, "the device cannot compile: {}", problem.what());
+        return fail(Fault::device_lacks, "isa.cannot_compile", "the device cannot compile: {reason}", problem.what());
     }
 }
 

@@ -100,7 +100,8 @@ Result<const GpuModel*> find_gpu_model(std::string_view name) {
         if (model.name == wanted || (!model.later_family.empty() && model.later_family == wanted)) return &model;
         known.push_back(model.name);
     }
-    return fail_unnamed(Fault::usage, "there is no GPU model '{}'{} (strata isa lists them)", name, did_you_mean(wanted, known));
+    return fail(Fault::usage, "isa.unknown_gpu_model", "there is no GPU model '{model}'{suggestion} (strata isa lists them)",
+                name, did_you_mean(wanted, known));
 }
 
 const GpuModel* gpu_model_of(std::string_view device_name) {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/no_index.h"
+#include "passes/shaders/scene/no_index.shared.h"
 
 namespace strata {
 namespace {
@@ -65,7 +66,7 @@ std::optional<std::uint64_t> counted_fragments(const Counting& counting, const P
     if (!draws_once(counting.plan, planned.step.scope)) return {};
     const Scope& scope = counting.plan.scopes[planned.step.scope];
     for (const CounterRecord& counter : counting.counts.counters)
-        if (is_act_of(scope, counter.technique) && counter.name == fragments_counter) return counter.value;
+        if (is_pass_of(scope, counter.technique) && counter.name == fragments_counter) return counter.value;
     return {};
 }
 
@@ -100,32 +101,32 @@ StepInvocations invocations_of(const Counting& counting, std::size_t index) {
     return {};
 }
 
-double modelled_ms(const GpuModel& model, std::uint64_t invocations, double inverse_throughput) {
+double modeled_ms(const GpuModel& model, std::uint64_t invocations, double inverse_throughput) {
     const double cycles = static_cast<double>(invocations) / invocations_per_throughput * inverse_throughput;
     return 1e3 * cycles / simd_cycles_per_second(model);
 }
 
-std::vector<IsaPass> passes_of(const Counting& counting, const PipelineRequests& requests) {
-    std::vector<IsaPass> passes;
+std::vector<IsaStep> isa_steps_of(const Counting& counting, const PipelineRequests& requests) {
+    std::vector<IsaStep> isa_steps;
     for (std::size_t i = 0; i < counting.plan.steps.size(); ++i) {
         if (requests.of_step[i] == no_index) continue;
         const Step& step = counting.plan.steps[i].step;
-        passes.push_back(
+        isa_steps.push_back(
             {counting.plan.scopes[step.scope], step.name, requests.pipelines[requests.of_step[i]].label, requests.of_step[i]});
         const StepInvocations ran = invocations_of(counting, i);
-        passes.back().invocations = ran.count;
-        passes.back().counted_by = ran.counted_by;
+        isa_steps.back().invocations = ran.count;
+        isa_steps.back().counted_by = ran.counted_by;
     }
-    return passes;
+    return isa_steps;
 }
 
 IsaOfGpu isa_of_gpu(const GpuModel* model, const Compilation& made, const PipelineRequests& requests,
-                    std::vector<IsaPass> passes) {
+                    std::vector<IsaStep> isa_steps) {
     IsaOfGpu gpu{.name = model ? std::string(model->name) : made.device,
                  .model = model,
                  .device = made.device,
                  .driver = made.driver,
-                 .passes = std::move(passes)};
+                 .steps = std::move(isa_steps)};
     for (std::size_t i = 0; i < made.pipelines.size(); ++i) {
         if (!made.pipelines[i].failure.empty())
             gpu.notes.push_back(fmt::format("{} does not compile: {}", requests.pipelines[i].label, made.pipelines[i].failure));
@@ -134,14 +135,14 @@ IsaOfGpu isa_of_gpu(const GpuModel* model, const Compilation& made, const Pipeli
             if (model) add_occupancy(program, *model, gpu);
         }
     }
-    for (IsaPass& pass : gpu.passes) {
+    for (IsaStep& isa_step : gpu.steps) {
         // Vertices are left out: nobody counts them, and they are few against fragments.
         const auto program = std::ranges::find_if(gpu.programs, [&](const IsaProgram& candidate) {
-            return candidate.pipeline == pass.pipeline && (candidate.stage == "compute" || candidate.stage == "fragment");
+            return candidate.pipeline == isa_step.pipeline && (candidate.stage == "compute" || candidate.stage == "fragment");
         });
-        if (!model || !pass.invocations || program == gpu.programs.end() || !program->inverse_throughput) continue;
-        pass.modelled_ms = modelled_ms(*model, *pass.invocations, *program->inverse_throughput);
-        gpu.modelled_ms = gpu.modelled_ms.value_or(0) + *pass.modelled_ms;
+        if (!model || !isa_step.invocations || program == gpu.programs.end() || !program->inverse_throughput) continue;
+        isa_step.modeled_ms = modeled_ms(*model, *isa_step.invocations, *program->inverse_throughput);
+        gpu.modeled_ms = gpu.modeled_ms.value_or(0) + *isa_step.modeled_ms;
     }
     return gpu;
 }

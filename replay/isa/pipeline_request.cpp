@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/no_index.h"
 
 namespace strata {
 namespace {
@@ -102,7 +102,7 @@ Result<PipelineRequest> request_from(const ordered_json& json, const ShaderLibra
     planned.step.push.resize(json.at("push_bytes"));
     for (const std::string name : json.at("shaders")) {
         const Shader* shader = library.find(name);
-        if (!shader) return fail_unnamed(Fault::bad_input, "there is no shader {}", name);
+        if (!shader) return fail(Fault::bad_input, "shader.unknown", "there is no shader {shader}", name);
         planned.shaders.push_back(shader);
         planned.step.shaders.push_back(name);
     }
@@ -162,7 +162,7 @@ Result<std::vector<PipelineRequest>> pipelines_from_json(const std::string& text
             requests.push_back(*std::move(request));
         }
     } catch (const nlohmann::json::exception& problem) {
-        return fail_unnamed(Fault::bad_input, "this is no list of pipelines: {}", problem.what());
+        return fail(Fault::bad_input, "isa.malformed_request", "not a list of pipelines: {reason}", problem.what());
     }
     return requests;
 }

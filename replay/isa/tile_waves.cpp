@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "passes/frame_images.h"
+#include "passes/technique.h"
 #include "replay/isa/isa_report.h"
 #include "replay/session/ability.h"
 
@@ -25,10 +27,10 @@ const IsaProgram* program_of(const TilesAndCode& joined, std::uint32_t number) {
     const auto holds_number = [&](const Fixed& fixed) {
         return fixed.name == joined.technique.abilities.variants->constant && fixed.value == SpecValue(number);
     };
-    for (const IsaPass& pass : joined.gpu.passes) {
-        const std::vector<Fixed>& fixed = joined.requests.pipelines[pass.pipeline].step.step.fixed;
-        if (!is_act_of(pass.scope, joined.technique.name) || std::ranges::none_of(fixed, holds_number)) continue;
-        const auto program = std::ranges::find(joined.gpu.programs, pass.pipeline, &IsaProgram::pipeline);
+    for (const IsaStep& isa_step : joined.gpu.steps) {
+        const std::vector<Fixed>& fixed = joined.requests.pipelines[isa_step.pipeline].step.step.fixed;
+        if (!is_pass_of(isa_step.scope, joined.technique.name) || std::ranges::none_of(fixed, holds_number)) continue;
+        const auto program = std::ranges::find(joined.gpu.programs, isa_step.pipeline, &IsaProgram::pipeline);
         if (program != joined.gpu.programs.end()) return &*program;
     }
     return nullptr;
@@ -62,7 +64,7 @@ Result<TileWaves> waves_of_tiles(const TilesAndCode& joined) {
     const Technique& technique = joined.technique;
     const auto skipped = std::ranges::find(joined.run.skipped, technique.stage, &SkippedStage::stage);
     if (skipped != joined.run.skipped.end())
-        return fail_unnamed(Fault::usage, "{} shades no tile: {}", technique.name, skipped->reason);
+        return fail(Fault::usage, "isa.no_shaded_tile", "{technique} shades no tile: {reason}", technique.name, skipped->reason);
     const NumberTable& table = joined.run.tables.at(name_of(technique, technique.abilities.variants->table));
     TileWaves made{.technique = std::string(technique.name),
                    .constant = std::string(technique.abilities.variants->constant),
@@ -71,13 +73,16 @@ Result<TileWaves> waves_of_tiles(const TilesAndCode& joined) {
         const auto number = static_cast<std::uint32_t>(at(table, row, technique.abilities.variants->constant));
         const IsaProgram* program = program_of(joined, number);
         if (!program || !program->occupancy)
-            return fail_unnamed(Fault::device_lacks, "{} does not tell how many waves of {} {} fit a SIMD", joined.gpu.name,
-                                technique.abilities.variants->constant, number);
+            return fail(Fault::device_lacks, "isa.no_occupancy",
+                        "{gpu} does not tell how many waves of {constant} {variant} fit a SIMD", joined.gpu.name,
+                        technique.abilities.variants->constant, number);
         made.variants.push_back({row, number, at(table, row, "tiles"), program->registers, *program->occupancy});
         made.tiles += made.variants.back().tiles;
         made.mean += double(made.variants.back().tiles) * program->occupancy->waves_per_simd;
     }
-    if (made.tiles == 0) return fail_unnamed(Fault::usage, "{} shades no tile: nothing opaque is in view", technique.name);
+    if (made.tiles == 0)
+        return fail(Fault::usage, "isa.no_shaded_tile", "{technique} shades no tile: {reason}", technique.name,
+                    "nothing opaque is in view");
     made.mean /= double(made.tiles);
     made.picture = waves_of_pixels(joined.run.images.at(name_of(technique, technique.abilities.variants->view)), made.variants);
     return made;

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "passes/technique.h"
 #include "replay/difference/canvas.h"
 #include "replay/images/host_image.h"
 #include "replay/isa/occupancy.h"

@@ -21,7 +21,7 @@ struct ColorPlanes {
     std::vector<bool> broken;  ///< empty, or one per pixel: a sample of it is NaN or infinite (it reads as black)
 };
 
-/// The first three channels; layers are samples and are averaged. A single channel is grey. Bytes are sRGB, as in a PNG.
+/// The first three channels; layers are samples and are averaged. A single channel is gray. Bytes are sRGB, as in a PNG.
 ColorPlanes color_planes(const HostImage&);
 /// The same of an image in double.
 ColorPlanes color_planes(const ReferenceImage&);

@@ -74,12 +74,12 @@ Result<void> check_comparable(const std::string& name, const HostImage& a, const
         a.shape.extent == b.shape.extent && a.shape.layers == b.shape.layers && of_a.channels == of_b.channels && same_kind;
     if (same_shape && a.place == b.place) return {};
     if (same_shape)
-        return fail_unnamed(Fault::usage,
-                            "'{}' cannot be compared: A covers the pixels {} of its picture, B {}; bring both to one data window",
-                            name, window_text(a), window_text(b));
-    return fail_unnamed(Fault::usage,
-                        "'{}' cannot be compared: A is {}, B is {}; bring both to one size, number of layers and channels", name,
-                        shape_text(a.shape), shape_text(b.shape));
+        return fail(Fault::usage, "image.windows_differ",
+                    "'{image}' cannot be compared: A covers the pixels {a} of its picture, B {b}; bring both to one data window",
+                    name, window_text(a), window_text(b));
+    return fail(Fault::usage, "image.shapes_differ",
+                "'{image}' cannot be compared: A is {a}, B is {b}; bring both to one size, number of layers and channels", name,
+                shape_text(a.shape), shape_text(b.shape));
 }
 
 Content content_of(std::string_view image, Format format) {

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
 #include "replay/gpu/executor.h"
 
 namespace strata {

@@ -1,4 +1,4 @@
-// A probe as a plot: T(z), what methods get wrong of it, and the fragments, above one axis of depth.
+// A probe as a plot: T(z), what techniques get wrong of it, and the fragments, above one axis of depth.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,7 +46,7 @@ public:
         for (const Fragment& f : probe.fragments) thickest_ = std::max(thickest_, alpha_of(f));
         highest_ = std::min(std::ceil(highest_ * 10) / 10, 2.) + .02;
         if (errors.empty()) return;
-        // The better half is wholly seen: one method that is far off would make lines of all others.
+        // The better half is wholly seen: one technique that is far off would make lines of all others.
         std::ranges::sort(errors);
         widest_ = std::clamp(1.2 * errors[errors.size() / 2], .001, 1.);
         is_cut_ = errors.back() > widest_;
@@ -80,7 +80,7 @@ private:
 
     void titles() {
         drawing_.text({70, 28}, "Transmittance along the ray: " + place_of(probe_), Anchor::start, 17);
-        drawing_.text({70, 48}, fmt::format("{}; T behind them {:.4g}. Methods on {}, mapped to {:.4g} to {:.4g} m",
+        drawing_.text({70, 48}, fmt::format("{}; T behind them {:.4g}. Techniques on {}, mapped to {:.4g} to {:.4g} m",
                                             plural(probe_.fragments.size(), "fragment"), luminance(probe_.exact_total),
                                             probe_.device.name, probe_.nearest, probe_.farthest));
     }
@@ -129,7 +129,7 @@ private:
         }
     }
 
-    /// Under T(z), a comb for each method that cuts depth into slices: low along a slice, high where there is none.
+    /// Under T(z), a comb for each technique that cuts depth into slices: low along a slice, high where there is none.
     void slices() {
         std::vector<std::size_t> sliced;
         for (std::size_t i = 0; i < order_.size(); ++i)
@@ -158,10 +158,10 @@ private:
 
     /// Up and down more often than transmittance falls: noise.
     static bool is_noisy(const ProbeCurve& curve) {
-        double travelled = 0;
+        double traveled = 0;
         for (std::size_t i = 1; i < curve.through.size(); ++i)
-            travelled += std::abs(luminance(curve.through[i] - curve.through[i - 1]));
-        return travelled > 4;
+            traveled += std::abs(luminance(curve.through[i] - curve.through[i - 1]));
+        return traveled > 4;
     }
 
     /// Noise behind everything, and the best on top.
@@ -218,13 +218,13 @@ private:
             const bool has_curve = curve.not_supported.empty();
             if (has_curve) drawing_.line({left, y}, {left + 30, y}, pen_of(i));
             // All are of one stage. Long settings get smaller letters, .62 of their size wide: 246 pixels are left.
-            const std::string method = curve.method.substr(curve.method.find('/') + 1);
-            drawing_.text({left + 38, y + 4}, method, Anchor::start, std::clamp(246 / (.62 * double(method.size())), 6., 12.));
-            drawing_.text({left + 38, y + 18},
-                          has_curve
-                              ? fmt::format("L1 {:.4f}   E_w {:.4f}", curve.figures.l1_logarithmic, curve.figures.event_weighted)
-                              : curve.not_supported,
-                          Anchor::start, 10);
+            const std::string variant = curve.variant.substr(curve.variant.find('/') + 1);
+            drawing_.text({left + 38, y + 4}, variant, Anchor::start, std::clamp(246 / (.62 * double(variant.size())), 6., 12.));
+            drawing_.text(
+                {left + 38, y + 18},
+                has_curve ? fmt::format("L1 {:.4f}   E_w {:.4f}", curve.metrics.l1_logarithmic, curve.metrics.fragment_weighted)
+                          : curve.not_supported,
+                Anchor::start, 10);
         }
         drawing_.text({left, y + 42}, "L1: mean error over the depth axis", Anchor::start, 10);
         drawing_.text({left, y + 56}, "E_w: over fragments, weighted by what each hides", Anchor::start, 10);

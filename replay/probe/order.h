@@ -1,4 +1,4 @@
-// The order in which a probe's methods are listed.
+// The order in which a probe's techniques are listed.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ inline std::vector<const ProbeCurve*> best_first(const Probe& probe) {
     std::vector<const ProbeCurve*> order;
     for (const ProbeCurve& curve : probe.curves) order.push_back(&curve);
     std::ranges::stable_sort(order, std::ranges::less{}, [](const ProbeCurve* curve) {
-        return std::pair(!curve->not_supported.empty(), curve->figures.l1_logarithmic);
+        return std::pair(!curve->not_supported.empty(), curve->metrics.l1_logarithmic);
     });
     return order;
 }

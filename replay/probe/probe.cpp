@@ -5,57 +5,59 @@
 #include <cmath>
 #include <limits>
 
+#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/nearest_name.h"
 #include "passes/reference/ordering.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/sample_blend.h"
-#include "replay/plural.h"
 #include "replay/probe/probe_frame.h"
 #include "replay/session/choice_text.h"
 
 namespace strata {
 namespace {
 
-// A probe stands so much nearer than the fragment whose T it measures: more than floats round, less than methods resolve.
+// A probe stands so much nearer than the fragment whose T it measures: more than floats round, less than techniques resolve.
 constexpr double just_in_front = 1 - 1e-6;
 // What the probe itself may change of the total before a note says so.
 constexpr double disturbance_noted = 2e-3;
 // Off the steps: farther from every one than this share of the axis.
 constexpr double off_steps = .01;
 
-struct ProbedMethod {
+struct ProbedVariant {
     std::string name;
     const Technique* technique = nullptr;
     Request request;
 };
 
-Result<ProbedMethod> probed(const std::string& text) {
-    auto parsed = parse_method(Stage::transparency, text);
+Result<ProbedVariant> probed(const std::string& text) {
+    auto parsed = parse_variant(Stage::transparency, text);
     if (!parsed) return parsed.error();
     const Technique& technique = *parsed->technique;
-    ProbedMethod method{std::string(technique.name), &technique, {.choices = {}, .outputs = {"color"}}};
+    ProbedVariant variant{std::string(technique.name), &technique, {.choices = {}, .outputs = {"color"}}};
     if (const std::string_view slices_table = technique.abilities.slices_table; !slices_table.empty())
-        method.request.outputs.push_back(fmt::format("{}:{}", technique.name, slices_table));
-    method.request.choices.use(technique);
-    method.request.choices.settings = std::move(parsed->settings);
-    if (!parsed->text.empty()) method.name += " " + parsed->text;
-    return method;
+        variant.request.outputs.push_back(fmt::format("{}:{}", technique.name, slices_table));
+    variant.request.choices.use(technique);
+    variant.request.choices.settings = std::move(parsed->settings);
+    if (!parsed->text.empty()) variant.name += " " + parsed->text;
+    return variant;
 }
 
-Result<std::vector<ProbedMethod>> parse_methods(std::span<const std::string> texts) {
-    std::vector<ProbedMethod> methods;
+Result<std::vector<ProbedVariant>> parse_variants(std::span<const std::string> texts) {
+    std::vector<ProbedVariant> variants;
     for (const std::string& text : texts) {
-        auto method = probed(text);
-        if (!method) return method.error();
-        if (std::ranges::count(methods, method->name, &ProbedMethod::name) > 0)
-            return fail_unnamed(Fault::usage, "--methods gives '{}' twice", method->name);
-        methods.push_back(*std::move(method));
+        auto variant = probed(text);
+        if (!variant) return variant.error();
+        if (std::ranges::count(variants, variant->name, &ProbedVariant::name) > 0)
+            return fail(Fault::usage, "report.technique_given_twice", "--techniques gives '{variant}' twice", variant->name);
+        variants.push_back(*std::move(variant));
     }
     if (texts.empty())
         for (const Technique* technique : techniques_of(Stage::transparency))
-            methods.push_back(*probed(std::string(technique->name)));
-    return methods;
+            variants.push_back(*probed(std::string(technique->name)));
+    return variants;
 }
 
 /// The axis as 0 to 1.
@@ -73,8 +75,8 @@ double mean_error(glm::dvec3 a, glm::dvec3 b) {
     return (error.x + error.y + error.z) / 3;
 }
 
-ProbeFigures figures_of(const Probe& probe, const ProbeCurve& curve) {
-    ProbeFigures figures;
+ProbeMetrics metrics_of(const Probe& probe, const ProbeCurve& curve) {
+    ProbeMetrics metrics;
     const Axis axis{probe.axis, probe.from, probe.to};
     const Axis linear{DepthAxis::linear, probe.from, probe.to}, logarithmic{DepthAxis::logarithmic, probe.from, probe.to};
     std::vector<double> steps;
@@ -87,20 +89,20 @@ ProbeFigures figures_of(const Probe& probe, const ProbeCurve& curve) {
     for (std::size_t i = 0; i < probe.depths.size(); ++i) {
         const double error = mean_error(curve.through[i], probe.exact[i]), u = static_cast<double>(i) / count;
         const double near = axis.depth(u), far = axis.depth(u + 1 / count);
-        figures.l1_linear += error * (linear.place(far) - linear.place(near));
-        figures.l1_logarithmic += error * (logarithmic.place(far) - logarithmic.place(near));
-        if (is_off_steps(u + .5 / count)) figures.worst_off_steps = std::max(figures.worst_off_steps.value_or(0), error);
+        metrics.l1_linear += error * (linear.place(far) - linear.place(near));
+        metrics.l1_logarithmic += error * (logarithmic.place(far) - logarithmic.place(near));
+        if (is_off_steps(u + .5 / count)) metrics.worst_off_steps = std::max(metrics.worst_off_steps.value_or(0), error);
     }
     double weight = 0;
     for (std::size_t i = 0; i < probe.fragments.size(); ++i) {
         const double hidden = mean_error(probe.fragments[i].transmittance, glm::dvec3(1));
         weight += hidden;
-        figures.event_weighted += hidden * mean_error(curve.at_events[i], probe.before_events[i]);
+        metrics.fragment_weighted += hidden * mean_error(curve.at_fragments[i], probe.before_fragments[i]);
     }
-    if (weight > 0) figures.event_weighted /= weight;
+    if (weight > 0) metrics.fragment_weighted /= weight;
     const glm::dvec3 total = curve.total - probe.exact_total;
-    figures.total = (total.x + total.y + total.z) / 3;
-    return figures;
+    metrics.total = (total.x + total.y + total.z) / 3;
+    return metrics;
 }
 
 using Row = std::vector<glm::dvec3>;
@@ -110,10 +112,10 @@ struct Picture {
     std::vector<DepthSpan> slices;
 };
 
-/// What the device makes of one frame by each of several methods: the row of pixels, and the slices of those that have some.
-Result<std::vector<Picture>> pictures_of(Session& session, const ProbeScene& scene, std::span<const ProbedMethod> methods) {
+/// What the device makes of one frame by each of several techniques: the row of pixels, and the slices of those that have some.
+Result<std::vector<Picture>> pictures_of(Session& session, const ProbeScene& scene, std::span<const ProbedVariant> variants) {
     std::vector<Request> requests;
-    for (const ProbedMethod& method : methods) requests.push_back(method.request);
+    for (const ProbedVariant& variant : variants) requests.push_back(variant.request);
     const auto runs = session.run(probe_frame(scene), requests);
     if (!runs) return runs.error();
     std::vector<Picture> pictures;
@@ -136,14 +138,14 @@ struct Measured {
     std::size_t own_slices = 0;     ///< that there are without a probe
 };
 
-/// Methods that take the same kind of probe, measured together: a frame is uploaded once for all.
-Result<std::vector<Measured>> measure(Session& session, ProbeScene scene, std::span<const ProbedMethod> methods) {
+/// Techniques that take the same kind of probe, measured together: a frame is uploaded once for all.
+Result<std::vector<Measured>> measure(Session& session, ProbeScene scene, std::span<const ProbedVariant> variants) {
     const bool is_additive = scene.kind == ProbeKind::additive;
     std::vector<std::vector<Picture>> pictures;
     const auto take = [&](ProbeKind kind, float background) -> Result<void> {
         scene.kind = kind;
         scene.background = background;
-        auto made = pictures_of(session, scene, methods);
+        auto made = pictures_of(session, scene, variants);
         if (!made) return made.error();
         pictures.push_back(*std::move(made));
         return {};
@@ -155,8 +157,8 @@ Result<std::vector<Measured>> measure(Session& session, ProbeScene scene, std::s
     for (const auto& [kind, background] : is_additive ? additive : thin)
         if (const auto taken = take(kind, background); !taken) return taken.error();
 
-    std::vector<Measured> all(methods.size());
-    for (std::size_t m = 0; m < methods.size(); ++m) {
+    std::vector<Measured> all(variants.size());
+    for (std::size_t m = 0; m < variants.size(); ++m) {
         const Row &behind = pictures[0][m].row, &lit = pictures[1][m].row, &other = pictures[2][m].row;
         all[m].slices = pictures[1][m].slices;
         all[m].own_slices = pictures[0][m].slices.size();
@@ -176,7 +178,7 @@ std::vector<std::string> notes_of(const Measured& measured, ProbeKind kind, cons
                                     1 / thin_probe_alpha));
     else if (measured.disturbance >= disturbance_noted)
         notes.push_back(fmt::format(
-            "the probe disturbs the method: T behind everything changes by up to {:.2g}, where the probe takes a layer "
+            "the probe disturbs the technique: T behind everything changes by up to {:.2g}, where the probe takes a layer "
             "of its own or other random numbers are drawn",
             measured.disturbance));
     if (measured.slices.size() != measured.own_slices)
@@ -189,25 +191,25 @@ std::vector<std::string> notes_of(const Measured& measured, ProbeKind kind, cons
     return notes;
 }
 
-/// Fills Probe::curves, in the order of the methods.
-Result<void> measure_all(Session& session, Probe& probe, ProbeScene scene, const std::vector<ProbedMethod>& methods) {
+/// Fills Probe::curves, in the order of the techniques.
+Result<void> measure_all(Session& session, Probe& probe, ProbeScene scene, const std::vector<ProbedVariant>& variants) {
     ProbeScene bare = scene;
     bare.kind = ProbeKind::none;
     const Features features = frame_features(probe_frame(bare));
-    probe.curves.resize(methods.size());
+    probe.curves.resize(variants.size());
     for (const ProbeKind kind : {ProbeKind::additive, ProbeKind::thin_black}) {
-        std::vector<ProbedMethod> together;
+        std::vector<ProbedVariant> together;
         std::vector<ProbeCurve*> curves;
-        for (std::size_t i = 0; i < methods.size(); ++i) {
+        for (std::size_t i = 0; i < variants.size(); ++i) {
             const bool has_additive =
-                std::ranges::find(methods[i].technique->cannot, Feature::additive) == methods[i].technique->cannot.end();
+                std::ranges::find(variants[i].technique->cannot, Feature::additive) == variants[i].technique->cannot.end();
             if (has_additive != (kind == ProbeKind::additive)) continue;
-            probe.curves[i].method = methods[i].name;
-            if (const auto feature = unsupported(*methods[i].technique, features)) {
+            probe.curves[i].variant = variants[i].name;
+            if (const auto feature = unsupported(*variants[i].technique, features)) {
                 probe.curves[i].not_supported = fmt::format("it cannot do {}", name(*feature));
                 continue;
             }
-            together.push_back(methods[i]);
+            together.push_back(variants[i]);
             curves.push_back(&probe.curves[i]);
         }
         scene.kind = kind;
@@ -218,11 +220,11 @@ Result<void> measure_all(Session& session, Probe& probe, ProbeScene scene, const
             Measured& of = (*measured)[i];
             const auto samples = of.through.begin() + static_cast<std::ptrdiff_t>(probe.depths.size());
             curves[i]->through.assign(of.through.begin(), samples);
-            curves[i]->at_events.assign(samples, of.through.end());
+            curves[i]->at_fragments.assign(samples, of.through.end());
             curves[i]->total = of.total;
             curves[i]->notes = notes_of(of, kind, *together[i].technique);
             curves[i]->slices = std::move(of.slices);
-            curves[i]->figures = figures_of(probe, *curves[i]);
+            curves[i]->metrics = metrics_of(probe, *curves[i]);
         }
     }
     return {};
@@ -236,10 +238,10 @@ Result<void> choose_range(Probe& probe, const ProbeOptions& options) {
     probe.from = std::clamp(from, probe.nearest, probe.farthest);
     probe.to = std::clamp(to, probe.nearest, probe.farthest);
     if (probe.from < probe.to) return {};
-    return fail_unnamed(
-        Fault::usage,
-        "there is nothing to probe from {:.4g} to {:.4g} m: the frame's transparent geometry is from {:.4g} to {:.4g} m", from,
-        to, probe.nearest, probe.farthest);
+    return fail(Fault::usage, "probe.empty_range",
+                "there is nothing to probe from {from:.4g} to {to:.4g} m: the frame's transparent geometry is from {nearest:.4g} "
+                "to {farthest:.4g} m",
+                from, to, probe.nearest, probe.farthest);
 }
 
 /// The frame's pixel nearest to `at` that has a fragment.
@@ -258,33 +260,39 @@ std::optional<PixelAt> nearest_with_some(const FragmentLists& lists, PixelAt at)
 
 Result<void> check_pixel(Session& session, const Request& request, const FragmentLists& lists, PixelAt at) {
     if (at.x >= lists.width() || at.y >= lists.height())
-        return fail_unnamed(Fault::usage, "the picture has {} x {} pixels, counted from 0; there is no pixel ({}, {})",
-                            lists.width(), lists.height(), at.x, at.y);
+        return fail(Fault::usage, "frame.no_pixel",
+                    "the picture has {width} x {height} pixels, counted from 0; there is no pixel ({x}, {y})", lists.width(),
+                    lists.height(), at.x, at.y);
     if (at.sample >= lists.samples())
-        return fail_unnamed(Fault::usage, "a pixel has {}, numbered from 0; there is no sample {}",
-                            plural(lists.samples(), "sample"), at.sample);
+        return fail(Fault::usage, "frame.no_sample", "there is no sample {sample}: a pixel has {samples}, numbered from 0",
+                    at.sample, lists.samples());
     if (!lists.at(at.x, at.y, at.sample).empty()) return {};
     const auto all = session.transparent_fragments(request);
     if (!all) return all.error();
     const auto other = nearest_with_some(**all, at);
-    if (!other) return fail_unnamed(Fault::usage, "no transparent fragment at ({}, {}), nor anywhere in the frame", at.x, at.y);
-    return fail_unnamed(Fault::usage, "no transparent fragment at ({}, {}); the nearest pixel with some is ({}, {})", at.x, at.y,
-                        other->x, other->y);
+    if (!other)
+        return fail(Fault::usage, "probe.no_fragment", "no transparent fragment at ({x}, {y}), nor anywhere in the frame", at.x,
+                    at.y);
+    return fail(Fault::usage, "probe.no_fragment",
+                "no transparent fragment at ({x}, {y}); the nearest pixel with some is ({nearest_x}, {nearest_y})", at.x, at.y,
+                other->x, other->y);
 }
 
 }  // namespace
 
 Result<Probe> probe(Session& session, ProbedStack stack, const ProbeOptions& options) {
-    const auto methods = parse_methods(options.methods);
-    if (!methods) return methods.error();
+    const auto variants = parse_variants(options.variants);
+    if (!variants) return variants.error();
     assert(!stack.fragments.empty());
     if (options.samples < 2 || options.samples > most_probe_depths)
-        return fail_unnamed(Fault::usage, "transmittance is evaluated at 2 to {} depths, not {}", most_probe_depths,
-                            options.samples);
+        return fail(Fault::usage, "probe.depth_count", "transmittance is evaluated at 2 to {most} depths, not {depths}",
+                    most_probe_depths, options.samples);
     if (options.samples + stack.fragments.size() > session.device().max_image_extent)
-        return fail_unnamed(Fault::usage, "{} depths and the pixel's {} are more than the {} that the device evaluates at once",
-                            options.samples, plural(stack.fragments.size(), "fragment"), session.device().max_image_extent);
-    // A depth offset may bring a particle nearer than the range, where methods stop telling depths apart.
+        return fail(
+            Fault::usage, "probe.too_many_depths",
+            "{depths} depths and the pixel's fragments ({fragments}) are more than the {limit} that the device evaluates at once",
+            options.samples, stack.fragments.size(), session.device().max_image_extent);
+    // A depth offset may bring a particle nearer than the range, where techniques stop telling depths apart.
     for (Fragment& fragment : stack.fragments) fragment.depth = std::max(fragment.depth, stack.nearest);
     Probe probe{.axis = options.axis, .nearest = stack.nearest, .farthest = stack.farthest, .device = session.device()};
     probe.fragments = transparency::nearest_first(stack.fragments);
@@ -300,19 +308,19 @@ Result<Probe> probe(Session& session, ProbedStack stack, const ProbeOptions& opt
     for (const Fragment& fragment : probe.fragments) {
         const auto submitted = std::ranges::find(stack.fragments, fragment.submission, &Fragment::submission);
         points.push_back({fragment.depth * just_in_front, static_cast<std::size_t>(submitted - stack.fragments.begin())});
-        probe.before_events.push_back(transparency::transmittance_before(probe.fragments, points.back().depth));
+        probe.before_fragments.push_back(transparency::transmittance_before(probe.fragments, points.back().depth));
         const glm::dvec3 t = fragment.transmittance;
         probe.colored = probe.colored || t.x != t.y || t.y != t.z;
         probe.exact_total *= t;
     }
     const ProbeScene scene{
         .fragments = stack.fragments, .nearest = stack.nearest, .farthest = stack.farthest, .points = points, .seed = stack.seed};
-    if (const auto measured = measure_all(session, probe, scene, *methods); !measured) return measured.error();
+    if (const auto measured = measure_all(session, probe, scene, *variants); !measured) return measured.error();
     return probe;
 }
 
 Result<Probe> probe(Session& session, const Request& request, PixelAt at, const ProbeOptions& options) {
-    if (const auto methods = parse_methods(options.methods); !methods) return methods.error();  // before seconds of work
+    if (const auto variants = parse_variants(options.variants); !variants) return variants.error();  // before seconds of work
     const auto frame = session.frame(request.variant.frame);
     if (!frame) return frame.error();
     const auto lists = session.row_fragments(request, at.y);

@@ -5,11 +5,13 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "capture_format/frame.h"
+
 namespace strata {
 namespace {
 
-// Fragments that hide less are drawn as light: methods drop them otherwise (docs/algorithms/transparency.md 0.2), and with them
-// the slot they take. The light is just above what is dropped and far below what is measured.
+// Fragments that hide less are drawn as light: techniques drop them otherwise (docs/algorithms/transparency.md 0.2), and with
+// them the slot they take. The light is just above what is dropped and far below what is measured.
 constexpr double least_alpha = 1e-5;
 constexpr float faint = 2e-6f;
 
@@ -61,7 +63,7 @@ void add(Builder& builder, const Fragment& fragment) {
         builder.card(builder.material(glm::vec4(faint, faint, faint, 1), {}, AlphaMode::additive), z, 0, 1.5);
         return;
     }
-    // t = 1 - alpha (1 - k). Rounding must not make colored glass of grey smoke.
+    // t = 1 - alpha (1 - k). Rounding must not make colored glass of gray smoke.
     glm::dvec3 k = 1. - (1. - fragment.transmittance) / fragment.alpha;
     for (int c = 0; c < 3; ++c) k[c] = k[c] < 1e-9 ? 0 : k[c];
     builder.card(builder.material(glm::vec4(0, 0, 0, fragment.alpha), k, AlphaMode::blend), z, 0, 1.5);

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "replay/report/table.h"
+#include "replay/tables/table.h"
 
 namespace strata {
 namespace {
@@ -30,7 +30,7 @@ std::optional<std::size_t> least(std::span<const Standing> rows, std::optional<s
     return best;
 }
 
-std::string figures(const Standing& row, const AnswerNames& names) {
+std::string metrics(const Standing& row, const AnswerNames& names) {
     const std::string error = fmt::format("{} {}", names.error, short_number(*row.error));
     return names.unit.empty() ? error : fmt::format("{}, {:.2f}x", error, row.time);
 }
@@ -67,11 +67,11 @@ std::string answer_text(std::span<const Standing> rows, std::optional<std::size_
                         const AnswerNames& names) {
     if (asked.within && names.unit.empty()) return "answer: none; the baseline's time could not be measured\n";
     const Answer answer = find_answer(rows, baseline, asked);
-    const auto row = [&](std::size_t i) { return fmt::format("{} ({})", names.rows[i], figures(rows[i], names)); };
+    const auto row = [&](std::size_t i) { return fmt::format("{} ({})", names.rows[i], metrics(rows[i], names)); };
     std::string text = fmt::format("answer for {}: ", limits(asked, names));
-    if (asked.error && asked.within && !answer.keeps_all) text += "no method; ";
+    if (asked.error && asked.within && !answer.keeps_all) text += "no technique; ";
     if (asked.error)
-        text += answer.cheapest ? fmt::format("cheapest {}", row(*answer.cheapest)) : "no method has so small an error";
+        text += answer.cheapest ? fmt::format("cheapest {}", row(*answer.cheapest)) : "no technique has so small an error";
     for (std::size_t i = 0; i < answer.as_fast.size(); ++i)
         text += fmt::format("{}{}", i == 0 ? ", as fast within the spread " : ", ", names.rows[answer.as_fast[i]]);
     if (!answer.unsteady.empty())
@@ -79,11 +79,11 @@ std::string answer_text(std::span<const Standing> rows, std::optional<std::size_
                             100 * largest_spread);
     if (asked.error && asked.within) text += "; ";
     if (asked.within)
-        text += answer.most_accurate ? fmt::format("most accurate {}", row(*answer.most_accurate)) : "no method is so fast";
+        text += answer.most_accurate ? fmt::format("most accurate {}", row(*answer.most_accurate)) : "no technique is so fast";
     text += "\n";
     if (baseline && rows[*baseline].error)
         text += fmt::format("the baseline {} is not an answer; here it has {}{}{}{}\n", names.rows[*baseline],
-                            figures(rows[*baseline], names),
+                            metrics(rows[*baseline], names),
                             *rows[*baseline].error < exact_below ? ": exact, nothing that shows is out of order" : "",
                             names.baseline_note.empty() ? "" : "; ", names.baseline_note);
     return text;

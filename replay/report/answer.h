@@ -1,4 +1,4 @@
-// The answer to "which method has less than 1 % error within 2x of the baseline's time?" No device.
+// The answer to "which technique has less than 1 % error within 2x of the baseline's time?" No device.
 #pragma once
 
 #include <optional>

@@ -3,10 +3,11 @@
 #include <map>
 #include <set>
 
+#include "passes/stages.h"
 #include "replay/plural.h"
-#include "replay/report/pooled.h"
-#include "replay/report/table.h"
+#include "replay/report/report_columns.h"
 #include "replay/report/variants.h"
+#include "replay/tables/table.h"
 
 namespace strata {
 namespace {
@@ -20,12 +21,6 @@ std::string short_label(const Row& row) {
     return below_stage(label(row.technique, row.settings));
 }
 
-template <typename Row>
-std::string marks(const Row& row, bool tied = false) {
-    const char of_time = row.on_front ? '*' : row.has_other_truth ? 't' : tied ? '=' : ' ';
-    return {of_time, row.on_memory_front ? '+' : ' '};
-}
-
 /// What the marks of a table stand for.
 template <typename Row>
 std::string legends(const std::vector<Row>& rows) {
@@ -33,66 +28,8 @@ std::string legends(const std::vector<Row>& rows) {
     return std::string(legend) + (has_other_truth ? fmt::format("t {}\n", other_truth_note) : "");
 }
 
-std::string time_head(std::string_view unit) { return unit.empty() ? "" : fmt::format("time, x {}", below_stage(unit)); }
-
-std::vector<Figure> shown_errors(const Measurement& row) {
-    std::vector<Figure> errors = errors_of(row);
-    std::erase_if(errors, [](const Figure& figure) { return figure.is_detail; });
-    return errors;
-}
-
-/// The first row that can do the frame, or null.
-const Measurement* first_measured(const Report& report) {
-    const auto row = std::ranges::find_if(report.rows, [](const Measurement& each) { return !each.accuracy.method.empty(); });
-    return row == report.rows.end() ? nullptr : &*row;
-}
-
-/// What rows are ranked by.
-std::string ranking_name(const Report& report) {
-    const Measurement* row = first_measured(report);
-    return row ? ranking_name(*row) : "error";
-}
-
-/// Whether errors over what the stage touches say more than those over the frame.
-bool leaves_much(const Report& report) {
-    const Measurement* row = first_measured(report);
-    return row && !row->accuracy.touched.empty() && row->accuracy.touched_share < 1;
-}
-
 bool has_coverage_flicker(const Report& report) {
     return std::ranges::any_of(report.rows, [](const Measurement& row) { return row.coverage_flicker.has_value(); });
-}
-
-/// One run has no spread.
-std::string time_cell(const Spread& time) {
-    return time.repeats > 1 ? fmt::format("{:.2f} +-{:.2f}", time.median, time.mad) : fmt::format("{:.2f}", time.median);
-}
-
-Table table_of(const Report& report) {
-    Table table;
-    if (const Measurement* row = first_measured(report))
-        for (const Figure& figure : shown_errors(*row)) table.heads.push_back(figure.name + " " + figure.unit);
-    if (leaves_much(report)) table.heads.push_back(ranking_name(report));
-    if (!report.time_unit.empty()) table.heads.push_back(time_head(report.time_unit));
-    if (report.is_timed) table.heads.insert(table.heads.end(), {"ms", "bytes per pixel"});
-    if (report.flicker) table.heads.emplace_back("flicker");
-    if (has_coverage_flicker(report)) table.heads.emplace_back("coverage flicker");
-    for (const Measurement& row : report.rows) {
-        Table::Row line{marks(row, row.is_tied), short_label(row), {}};
-        if (!row.accuracy.not_supported.empty()) {
-            line.cells = {"not supported: " + row.accuracy.not_supported};
-        } else {
-            for (const Figure& figure : shown_errors(row)) line.cells.push_back(short_number(figure.value));
-            if (leaves_much(report)) line.cells.push_back(short_number(ranking_figure(row).value));
-            if (row.time) line.cells.push_back(time_cell(*row.time));
-            if (report.is_timed) line.cells.push_back(short_number(row.stage_ms.median));
-            if (report.is_timed) line.cells.push_back(fmt::format("{:.0f}", row.bytes_per_pixel));
-            if (row.flicker) line.cells.push_back(short_number(*row.flicker));
-            if (row.coverage_flicker) line.cells.push_back(short_number(*row.coverage_flicker));
-        }
-        table.rows.push_back(std::move(line));
-    }
-    return table;
 }
 
 /// The most accurate row of each budget, with what it is ranked by. Without a time unit time has none.
@@ -192,10 +129,10 @@ std::string heading(const Report& report) {
     const bool of_picture = report.error_at == ErrorAt::picture;
     if (of_picture) text += "errors are of the picture: the later stages run from each row's outputs and from the truth\n";
     const Measurement* measured = first_measured(report);
-    if (measured && measured->accuracy.left_out_share > 0)
+    if (measured && measured->accuracy.undecided_share > 0)
         text +=
             fmt::format("left out of the errors: {:.3g} % of samples, where rounding decides what is drawn or in which order\n",
-                        100 * measured->accuracy.left_out_share);
+                        100 * measured->accuracy.undecided_share);
     if (leaves_much(report))
         text += fmt::format("touched: errors over the {:.3g} % of {} that the stage changes\n",
                             100 * measured->accuracy.touched_share, of_picture ? "pixels" : "samples");
@@ -222,36 +159,39 @@ std::string implementation_doubt(const Measurement& row) {
 
 bool is_nothing_compared(const Measurement& row) { return row.accuracy.compared == 0 && row.accuracy.undecided > 0; }
 
-std::string as_text(const Report& report) {
-    const std::string text = heading(report);
-    if (!report.skipped.empty()) return text;
+Page page_of(const Report& report) {
+    Page page{heading(report)};
+    if (!report.skipped.empty()) return page;
     const std::string stopped = report.stopped.empty() ? "" : "\n" + report.stopped + "\n";
-    if (!report.is_timed) return text + "\n" + as_text(table_of(report)) + "\n" + implementation_text(report) + stopped;
+    page.insert(page.end(), {"\n", sheet_of(report), "\n"});
+    if (!report.is_timed) {
+        page.emplace_back(implementation_text(report) + stopped);
+        return page;
+    }
     const bool has_ties = std::ranges::any_of(report.rows, &Measurement::is_tied);
-    const std::string marked = legends(report.rows) + std::string(has_ties ? tie_legend : "");
-    return text + "\n" + as_text(table_of(report)) + "\n" + marked + implementation_text(report) + mirrors_text(report) +
-           best_rows(report.rows, standings(report.rows), ranking_name(report), report.time_unit) + counters_text(report) +
-           stopped + answer_text(report);
+    page.emplace_back(legends(report.rows) + std::string(has_ties ? tie_legend : "") + implementation_text(report) +
+                      mirrors_text(report) +
+                      best_rows(report.rows, standings(report.rows), ranking_name(report), report.time_unit) +
+                      counters_text(report) + stopped + answer_text(report));
+    return page;
 }
 
-std::string as_text(const Pool& pool) {
-    std::string text = fmt::format("{} of {}: geometric means\n\n", name(pool.stage), plural(pool.captures, "capture"));
-    Table table{.heads = {pool.error}, .rows = {}};
-    const auto has_flicker = [](const PooledRow& row) { return row.flicker.has_value(); };
-    const bool flickers = !pool.rows.empty() && std::ranges::all_of(pool.rows, has_flicker);
-    if (!pool.time_unit.empty()) table.heads.push_back(time_head(pool.time_unit));
-    table.heads.emplace_back("bytes per pixel");
-    if (flickers) table.heads.emplace_back("flicker");
-    table.heads.emplace_back("captures");
-    for (const PooledRow& row : pool.rows) {
-        Table::Row line{marks(row), short_label(row), {short_number(row.error)}};
-        if (!pool.time_unit.empty()) line.cells.push_back(row.time ? fmt::format("{:.2f}", *row.time) : "");
-        line.cells.push_back(fmt::format("{:.0f}", row.bytes_per_pixel));
-        if (flickers) line.cells.push_back(short_number(*row.flicker));
-        line.cells.push_back(row.captures == pool.captures ? "all" : fmt::format("{} of {}", row.captures, pool.captures));
-        table.rows.push_back(std::move(line));
-    }
-    return text + as_text(table) + "\n" + legends(pool.rows) + best_rows(pool.rows, standings(pool), pool.error, pool.time_unit);
+Page page_of(const Pool& pool) {
+    return {fmt::format("{} of {}: geometric means\n\n", name(pool.stage), plural(pool.captures, "capture")), sheet_of(pool),
+            "\n" + legends(pool.rows) + best_rows(pool.rows, standings(pool), pool.error, pool.time_unit)};
 }
+
+Page page_of(std::span<const Report> reports, const Pool& pool) {
+    Page page;
+    for (const Report& report : reports) {
+        std::ranges::move(page_of(report), std::back_inserter(page));
+        page.emplace_back("\n");
+    }
+    std::ranges::move(page_of(pool), std::back_inserter(page));
+    return page;
+}
+
+std::string as_text(const Report& report) { return as_text(page_of(report)); }
+std::string as_text(const Pool& pool) { return as_text(page_of(pool)); }
 
 }  // namespace strata

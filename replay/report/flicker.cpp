@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
+#include "passes/frame_images.h"
 #include "passes/registry.h"
 #include "passes/scene/draw_lists.h"
 #include "passes/scene/view_space.h"
-#include "replay/report/yardstick.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
+#include "replay/report/row_truth.h"
 
 namespace strata {
 namespace {

@@ -46,7 +46,7 @@ struct MeasuredFlicker {
 };
 
 /// A dolly towards what is transparent (or, where nothing is, opaque): a twentieth of the view depth in the middle of all of it
-/// that lies before the eye, metres. Nothing where nothing does.
+/// that lies before the eye, meters. Nothing where nothing does.
 std::optional<double> default_dolly(const Frame&);
 
 /// Of each of the rows against the technique that stands in for the stage's truth; where none does, against the truth in double

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "capture_format/frame.h"
+#include "passes/frame_images.h"
+#include "passes/technique.h"
 #include "replay/gpu/kept_pipelines.h"
 #include "replay/session/session_on_device.h"
 
@@ -82,7 +85,7 @@ double measured(HardMeasure measure, std::span<const Seen> frames) {
 HardOutcome judged(const Variant& variant, const HardCase& hard_case, double error, double model_worst) {
     using Verdict = HardOutcome::Verdict;
     HardOutcome outcome{.error = error, .model_worst = model_worst};
-    const bool holds = error <= hard_case.accept;
+    const bool holds = error <= hard_case.tolerance;
     if (!variant.settings.empty()) {
         outcome.verdict = holds ? Verdict::holds : Verdict::fails;
         return outcome;

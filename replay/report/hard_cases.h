@@ -1,6 +1,6 @@
-// What every technique of transparency makes of the frames on which such methods come to grief (captures/hard_cases.h): a matrix
-// of settings and case. A failure is documented where the technique says how large it is (Technique::known_failures), of its
-// defaults alone.
+// What every technique of transparency makes of the frames on which such techniques come to grief (captures/hard_cases.h): a
+// matrix of settings and case. A failure is documented where the technique says how large it is (Technique::known_failures), of
+// its defaults alone.
 #pragma once
 
 #include <functional>
@@ -12,6 +12,7 @@
 #include "captures/hard_cases.h"
 #include "replay/report/variants.h"
 #include "replay/session/session.h"
+#include "replay/tables/sheet.h"
 
 namespace strata {
 
@@ -35,6 +36,7 @@ struct HardCaseReport {
     DeviceInfo device;
     std::vector<HardCaseRow> rows;
     std::string stopped = {};  ///< what is missing because a stop was asked for: rows have the outcomes of the first cases
+    std::string date = {};     ///< utc_date(); the caller's
 };
 
 /// Of techniques of transparency with their settings: variants(). Once a stop is requested it gives the cases that were measured
@@ -48,8 +50,13 @@ bool as_recorded(double error, double recorded);
 /// "H14b": what a case's name begins with.
 std::string_view id(const HardCase&);
 
+/// A row for every case of every technique.
+Sheet sheet_of(const HardCaseReport&);
+/// The cases beside each other.
+Page page_of(const HardCaseReport&);
 std::string as_text(const HardCaseReport&);
 std::string as_json(const HardCaseReport&);
+std::string as_csv(const HardCaseReport&);
 std::string_view name(HardOutcome::Verdict);
 
 }  // namespace strata

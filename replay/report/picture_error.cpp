@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/frame_images.h"
 #include "passes/reference/difference.h"
+#include "passes/stage_input.h"
+#include "passes/stages.h"
 #include "replay/measure/flip.h"
-#include "replay/session/judgement.h"
+#include "replay/session/judgment.h"
 
 namespace strata {
 namespace {
@@ -19,13 +22,13 @@ Result<ReferenceImage> picture_from(Session& session, Request request, Stage sta
 
 /// The stage's outputs as its technique finds them; black where no stage before it writes them.
 Result<ImageSet> found_before(Session& session, const Request& request, Stage stage, const ImageSet& truth) {
-    const auto acts = session.act_images(request);
-    if (!acts) return acts.error();
+    const auto passes = session.pass_images(request);
+    if (!passes) return passes.error();
     ImageSet before;
     for (const auto& [name, image] : truth) before.emplace(name, ReferenceImage(image.width, image.height, image.layers));
-    for (const ActImages& act : *acts) {
-        if (act.at == stage) break;
-        for (const auto& [name, image] : act.images)
+    for (const PassImages& pass : *passes) {
+        if (pass.at == stage) break;
+        for (const auto& [name, image] : pass.images)
             if (const auto wanted = before.find(name); wanted != before.end()) wanted->second = in_double(image);
     }
     return before;
@@ -45,7 +48,7 @@ bool is_undecided(const ReferenceImage& image) {
 }
 
 /// Smaller is better; shares in percent of the pixels that are compared.
-std::vector<Figure> figures_of(const ReferenceImage& got, const ReferenceImage& wanted) {
+std::vector<Metric> metrics_of(const ReferenceImage& got, const ReferenceImage& wanted) {
     const Difference error = difference(got, wanted);
     std::size_t off = 0, compared = 0;
     for (std::size_t i = 0; i < wanted.texels.size(); ++i) {
@@ -64,8 +67,8 @@ std::vector<Figure> figures_of(const ReferenceImage& got, const ReferenceImage& 
 
 Result<PictureTruth> picture_truth(Session& session, const Request& request, Stage stage, const ImageSet& truth) {
     if (std::ranges::count(info(stage).outputs, picture) > 0)
-        return fail_unnamed(Fault::usage, "the stage {} makes the picture itself: its errors are those of the picture",
-                            name(stage));
+        return fail(Fault::usage, "report.stage_makes_picture",
+                    "the stage {stage} makes the picture itself: its errors are those of the picture", name(stage));
     auto display = picture_from(session, request, stage, truth);
     if (!display) return display.error();
     const auto before = found_before(session, request, stage, truth);
@@ -82,7 +85,7 @@ Result<PictureTruth> picture_truth(Session& session, const Request& request, Sta
 Result<void> judge_picture(Session& session, Request request, const PictureTruth& truth, Accuracy& accuracy) {
     if (is_undecided(truth.display)) {
         accuracy.not_supported = "no pixel can be judged: rounding decides what a sample of each of them shows";
-        accuracy.method.clear();
+        accuracy.technique_errors.clear();
         accuracy.flip.reset();
         return {};
     }
@@ -91,9 +94,9 @@ Result<void> judge_picture(Session& session, Request request, const PictureTruth
     if (!run) return run.error();
     const HostImage& display = run->images.at(picture);
     const ReferenceImage got = in_double(display);
-    accuracy.method = figures_of(got, truth.display);
+    accuracy.technique_errors = metrics_of(got, truth.display);
     accuracy.flip = display_flip(color_planes(truth.display), color_planes(got)).mean;
-    accuracy.touched = truth.touched_share > 0 ? figures_of(got, truth.touched) : std::vector<Figure>();
+    accuracy.touched = truth.touched_share > 0 ? metrics_of(got, truth.touched) : std::vector<Metric>();
     accuracy.touched_share = truth.touched_share > 0 ? truth.touched_share : 1;
     return {};
 }

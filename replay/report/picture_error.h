@@ -18,7 +18,8 @@ struct PictureTruth {
 /// stage's outputs (Session::run_from), and for a stage that makes the picture itself.
 Result<PictureTruth> picture_truth(Session&, const Request&, Stage, const ImageSet& truth);
 
-/// Runs the request and puts the errors of its picture in the place of those of the stage: Accuracy::method, flip and touched.
+/// Runs the request and puts the errors of its picture in the place of those of the stage: Accuracy::technique_errors, flip and
+/// touched.
 Result<void> judge_picture(Session&, Request, const PictureTruth&, Accuracy&);
 
 }  // namespace strata

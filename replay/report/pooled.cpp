@@ -12,10 +12,10 @@ constexpr double least = 1e-5;
 
 /// The mean of a figure over rows; nothing when one of them lacks it.
 std::optional<double> mean_of(std::span<const Measurement* const> rows,
-                              const std::function<std::optional<double>(const Measurement&)>& figure) {
+                              const std::function<std::optional<double>(const Measurement&)>& metric) {
     std::vector<double> values;
     for (const Measurement* row : rows)
-        if (const auto value = figure(*row)) values.push_back(*value);
+        if (const auto value = metric(*row)) values.push_back(*value);
     return values.empty() || values.size() < rows.size() ? std::nullopt : std::optional(geometric_mean(values));
 }
 
@@ -25,7 +25,7 @@ PooledRow pooled_row(std::span<const Measurement* const> rows) {
     return {
         .technique = rows.front()->technique,
         .settings = rows.front()->settings,
-        .error = *mean_of(rows, [](const Measurement& row) { return ranking_figure(row).value; }),
+        .error = *mean_of(rows, [](const Measurement& row) { return ranking_metric(row).value; }),
         .time = mean_of(rows, [](const Measurement& row) { return row.time ? std::optional(row.time->median) : std::nullopt; }),
         .bytes_per_pixel = bytes,
         .flicker = mean_of(rows, [](const Measurement& row) { return row.flicker; }),
@@ -61,8 +61,8 @@ Pool pooled(std::span<const Report> reports) {
         one_unit = one_unit && report.time_unit == pool.time_unit;
         ++pool.captures;
         for (const Measurement& row : report.rows) {
-            if (row.accuracy.method.empty()) continue;
-            pool.error = ranking_figure(row).name;
+            if (row.accuracy.technique_errors.empty()) continue;
+            pool.error = ranking_metric(row).name;
             const auto same = [&](const auto& others) {
                 return std::tie(others.front()->technique, others.front()->settings) == std::tie(row.technique, row.settings);
             };

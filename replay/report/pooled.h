@@ -34,8 +34,8 @@ struct Pool {
 /// Of reports on one stage.
 Pool pooled(std::span<const Report>);
 
-/// exp of the mean of the logs. Values below 1e-5 count as 1e-5, which nobody sees: one frame that a method happens to do exactly
-/// would be all of its mean, and the rounding of an exact method is no merit.
+/// exp of the mean of the logs. Values below 1e-5 count as 1e-5, which nobody sees: one frame that a technique happens to do
+/// exactly would be all of its mean, and the rounding of an exact technique is no merit.
 double geometric_mean(std::span<const double>);
 
 /// Rows that are not ranked have no error.

@@ -4,7 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/particles.h"
+#include "passes/registry.h"
 #include "passes/scene/object_order.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/report/flicker.h"
 #include "replay/report/row_maker.h"
 #include "replay/report/variants.h"
@@ -20,7 +26,7 @@ Result<void> add_flicker(Session& session, ReportRequest wanted, std::span<const
         if (!frame) return frame.error();
         wanted.flicker->dolly = default_dolly(*frame);
         if (!wanted.flicker->dolly)
-            return fail_unnamed(Fault::usage, "nothing lies before the eye to move towards; give --dolly metres");
+            return fail(Fault::usage, "report.no_dolly", "no surface lies before the eye to move towards; give --dolly meters");
     }
     report.flicker = wanted.flicker;
     std::vector<Request> moved;
@@ -60,9 +66,9 @@ private:
     Session* session_;
 };
 
-std::vector<ReportTruth> truths_of(const Yardsticks& yardsticks) {
+std::vector<ReportTruth> truths_of(const RowTruths& row_truths) {
     std::vector<ReportTruth> truths;
-    for (const Yardstick& each : yardsticks.all)
+    for (const RowTruth& each : row_truths.all)
         truths.push_back({.name = std::string(each.of.name), .is = each.name, .own_error = each.own_error});
     return truths;
 }
@@ -88,15 +94,15 @@ void put_unit_first(std::vector<Variant>& rows) {
 
 }  // namespace
 
-const Figure& ranking_figure(const Measurement& row) {
-    const std::vector<Figure>& figures = row.accuracy.touched.empty() ? row.accuracy.method : row.accuracy.touched;
-    const auto relative = std::ranges::find(figures, "relative rmse", &Figure::name);
-    return relative == figures.end() ? figures.front() : *relative;
+const Metric& ranking_metric(const Measurement& row) {
+    const std::vector<Metric>& metrics = row.accuracy.touched.empty() ? row.accuracy.technique_errors : row.accuracy.touched;
+    const auto relative = std::ranges::find(metrics, "relative rmse", &Metric::name);
+    return relative == metrics.end() ? metrics.front() : *relative;
 }
 
 std::string ranking_name(const Measurement& row) {
     const bool is_touched = !row.accuracy.touched.empty() && row.accuracy.touched_share < 1;
-    return ranking_figure(row).name + (is_touched ? " touched" : "");
+    return ranking_metric(row).name + (is_touched ? " touched" : "");
 }
 
 std::vector<Standing> standings(std::span<const Measurement> rows) {
@@ -105,7 +111,7 @@ std::vector<Standing> standings(std::span<const Measurement> rows) {
         Standing standing{.time = row.time ? row.time->median : row.stage_ms.median,
                           .spread = row.time ? row.time->mad : row.stage_ms.mad,
                           .bytes_per_pixel = std::round(row.bytes_per_pixel)};
-        if (!row.accuracy.method.empty() && !row.has_other_truth) standing.error = ranking_figure(row).value;
+        if (!row.accuracy.technique_errors.empty() && !row.has_other_truth) standing.error = ranking_metric(row).value;
         all.push_back(standing);
     }
     return all;
@@ -129,8 +135,8 @@ void mark_fronts(std::vector<Measurement>& rows) {
     }
 }
 
-std::vector<Figure> errors_of(const Measurement& row) {
-    std::vector<Figure> errors = row.accuracy.method;
+std::vector<Metric> errors_of(const Measurement& row) {
+    std::vector<Metric> errors = row.accuracy.technique_errors;
     if (row.accuracy.flip) errors.push_back({"FLIP", "", *row.accuracy.flip});
     return errors;
 }
@@ -140,7 +146,7 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
         if (progress) progress(what, done);
     };
     if (techniques_of(wanted.stage).empty())
-        return fail_unnamed(Fault::usage, "the stage {} has no technique yet", name(wanted.stage));
+        return fail(Fault::usage, "stage.no_technique", "the stage {stage} has no technique yet", name(wanted.stage));
     auto all = variants(wanted);
     if (!all) return all.error();
     put_unit_first(*all);
@@ -172,10 +178,10 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
     count_sorted(*frame, report);
     const Shares shares(wanted);
     tell("truth", 0);
-    const auto yardsticks = find_yardsticks(session, wanted, *all, *frame);
-    if (!yardsticks) return yardsticks.error();
-    report.truths = truths_of(*yardsticks);
-    RowMaker maker(session, wanted, *all, *yardsticks, report);
+    const auto row_truths = find_row_truths(session, wanted, *all, *frame);
+    if (!row_truths) return row_truths.error();
+    report.truths = truths_of(*row_truths);
+    RowMaker maker(session, wanted, *all, *row_truths, report);
     const auto made = maker.make_all([&](std::string_view what, double done) { tell(what, shares.rows * done); });
     if (!made) return made.error();
     if (wanted.flicker && report.stopped.empty()) {
@@ -191,8 +197,8 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
     }
     if (report.is_timed) mark_fronts(report.rows);
     std::ranges::stable_sort(report.rows, {}, [](const Measurement& row) {
-        const bool is_measured = !row.accuracy.method.empty();
-        return std::tuple(!is_measured, row.has_other_truth, is_measured ? ranking_figure(row).value : 0);
+        const bool is_measured = !row.accuracy.technique_errors.empty();
+        return std::tuple(!is_measured, row.has_other_truth, is_measured ? ranking_metric(row).value : 0);
     });
     tell("done", 1);
     return report;

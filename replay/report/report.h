@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "passes/reference/standard_error.h"
+#include "passes/tolerance.h"
 #include "replay/report/answer.h"
 #include "replay/report/ranking.h"
 #include "replay/session/session.h"
@@ -21,10 +22,10 @@ struct Sweep {
 };
 
 /// The eye walks ahead and turns its head, both evenly: what moves so little should not flicker. Walking takes surfaces through a
-/// method's slices of depth; but the order of view depths, which object sorting goes by, changes by turning only.
+/// technique's slices of depth; but the order of view depths, which object sorting goes by, changes by turning only.
 struct Walk {
     std::uint32_t frames = 64;
-    std::optional<double> dolly;  ///< metres from the first frame to the last; none: default_dolly()
+    std::optional<double> dolly;  ///< meters from the first frame to the last; none: default_dolly()
     double pan = 5;               ///< degrees to the right from the first frame to the last
 };
 
@@ -40,9 +41,9 @@ struct ReportRequest {
     Request base;  ///< frame, other stages' choices
     ErrorAt error_at = ErrorAt::stage;
     Stage stage = Stage::transparency;
-    std::vector<std::string> methods;  ///< "technique key=value ..."; none: every technique of the stage
-    bool defaults_only = false;        ///< without the techniques' own points
-    std::vector<Sweep> sweeps;         ///< instead of their own points
+    std::vector<std::string> techniques;  ///< "technique key=value ..."; none: every technique of the stage
+    bool defaults_only = false;           ///< without the techniques' own variants
+    std::vector<Sweep> sweeps;            ///< instead of their own variants
     Question question;
     std::size_t repeats = 7;
     /// Above 0 and below `repeats`: rows are timed so often, once where another is twice as good, and `repeats` times where their
@@ -64,7 +65,7 @@ struct Measurement {
     double tolerated_worst = HUGE_VAL;  ///< and for accuracy.model_worst
     ModelKind model_is = ModelKind::paper;
     Spread stage_ms, frame_ms;
-    std::optional<Spread> time;     ///< stage_ms as multiples of the time unit's, turn by turn
+    std::optional<Spread> time;     ///< stage_ms as multiples of the time unit's, repeat by repeat
     std::optional<Spread> sort_ms;  ///< of stage_ms: what the host sorts in every frame
     std::uint64_t stage_bytes = 0;
     double bytes_per_pixel = 0;
@@ -88,6 +89,7 @@ struct Report {
     Stage stage = Stage::transparency;
     std::string capture_name;  ///< for people; the caller's
     std::string capture_id;
+    std::string date = {};            ///< when it was made, utc_date(); the caller's
     std::vector<ReportTruth> truths;  ///< of its rows; the first is that of the first row
     ErrorAt error_at = ErrorAt::stage;
     std::size_t frame = 0, repeats = 0;  ///< of the row with the most; each has its own in its spreads
@@ -111,7 +113,7 @@ Result<Report> make_report(Session&, const ReportRequest&, const Progress& = {})
 void mark_fronts(std::vector<Measurement>&);
 /// What a supported row is ranked and pooled by: frames differ in brightness and in how much of them the stage touches, so the
 /// relative error over what it touches where there is one; else the first figure of its judge.
-const Figure& ranking_figure(const Measurement&);
+const Metric& ranking_metric(const Measurement&);
 /// Its name, and whether it is over what the stage touches alone: "relative rmse touched".
 std::string ranking_name(const Measurement&);
 /// The rows by their ranking figures; time in the time unit, or in milliseconds without one. Rows that are not ranked have no
@@ -121,7 +123,7 @@ std::vector<Standing> standings(std::span<const Measurement>);
 std::optional<std::size_t> baseline_of(const Report&);
 
 /// The figures of the stage's judge, and FLIP's mean behind them where there is one.
-std::vector<Figure> errors_of(const Measurement&);
+std::vector<Metric> errors_of(const Measurement&);
 
 /// What is wrong with a technique's implementation, as a sentence without its subject: "is 2e-02 from its own model, ..."; empty
 /// where it is within its tolerance.

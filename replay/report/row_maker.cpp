@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "passes/technique.h"
 #include "replay/plural.h"
 #include "replay/report/enough_repeats.h"
 
@@ -69,14 +70,14 @@ Result<void> RowMaker::make_group(std::size_t end, const Progress& tell) {
         session_->give_back_memory();
         tell(fmt::format("{} of {}, {}", i + 1, all_.size(), label(variant.technique->name, variant.settings)),
              double(i) / double(all_.size()));
-        const Yardstick& yardstick = yardsticks_->all[yardsticks_->of_row[i]];
-        auto accuracy = measure_accuracy(*session_, variant, wanted_->stage, yardstick);
+        const RowTruth& row_truth = row_truths_->all[row_truths_->of_row[i]];
+        auto accuracy = measure_accuracy(*session_, variant, wanted_->stage, row_truth);
         if (!accuracy) return accuracy.error();
         const Tolerance tolerance = tolerance_at(variant.technique->tolerance, variant.settings, {});
         report_->rows.push_back({.technique = std::string(variant.technique->name),
                                  .settings = variant.settings,
-                                 .truth = std::string(yardstick.of.name),
-                                 .has_other_truth = yardsticks_->of_row[i] != yardsticks_->of_row.front(),
+                                 .truth = std::string(row_truth.of.name),
+                                 .has_other_truth = row_truths_->of_row[i] != row_truths_->of_row.front(),
                                  .accuracy = *std::move(accuracy),
                                  .tolerance = tolerance.rmse,
                                  .tolerated_worst = tolerance.worst,

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "replay/report/row_times.h"
-#include "replay/report/yardstick.h"
+#include "replay/report/row_truth.h"
 
 namespace strata {
 
@@ -14,12 +14,12 @@ std::size_t least_repeats_of(const ReportRequest&);
 class RowMaker {
 public:
     /// All of these outlive it. Rows whose time may be the unit come first.
-    RowMaker(Session& session, const ReportRequest& wanted, std::span<const Variant> all, const Yardsticks& yardsticks,
+    RowMaker(Session& session, const ReportRequest& wanted, std::span<const Variant> all, const RowTruths& row_truths,
              Report& report)
         : session_(&session),
           wanted_(&wanted),
           all_(all),
-          yardsticks_(&yardsticks),
+          row_truths_(&row_truths),
           report_(&report),
           times_(session, wanted.stage, all) {}
 
@@ -36,7 +36,7 @@ private:
     Session* session_;
     const ReportRequest* wanted_;
     std::span<const Variant> all_;
-    const Yardsticks* yardsticks_;
+    const RowTruths* row_truths_;
     Report* report_;
     RowTimes times_;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "passes/technique.h"
+
 namespace strata {
 namespace {
 

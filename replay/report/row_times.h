@@ -1,4 +1,4 @@
-// Times of a report's rows, as they are measured: each beside the technique whose time is the unit, turn by turn.
+// Times of a report's rows, as they are measured: each beside the technique whose time is the unit, repeat by repeat.
 #pragma once
 
 #include <span>

@@ -7,6 +7,8 @@
 #include <fmt/ranges.h>
 
 #include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/session/choice_text.h"
 
 namespace strata {
@@ -19,7 +21,7 @@ Variant with(Variant variant, std::string_view setting) {
     return variant;
 }
 
-Variant at_point(Variant variant, std::string_view point) {
+Variant at_settings(Variant variant, std::string_view point) {
     std::istringstream settings{std::string(point)};
     for (std::string setting; settings >> setting;) variant = with(std::move(variant), setting);
     return variant;
@@ -33,8 +35,8 @@ Result<void> check_sweeps(std::span<const Variant> swept, std::span<const Sweep>
             Settings settings(variant.technique->params);
             for (const std::string& value : sweep.values)
                 if (const auto fits = settings.set(sweep.key, value); !fits)
-                    return fail_unnamed(fits.error().fault, "--sweep {}={}: {}: {}", sweep.key, value, variant.technique->name,
-                                        fits.error().sentence);
+                    return within(fits.error(), "--sweep {setting}={value}: {technique}", sweep.key, value,
+                                  variant.technique->name);
         }
     return {};
 }
@@ -66,8 +68,8 @@ Result<void> check_rows_differ(std::span<const Variant> rows) {
     std::set<std::string> known;
     for (const Variant& row : rows)
         if (!known.insert(whole_choice(row)).second)
-            return fail_unnamed(Fault::usage, "--methods and --sweep give the row '{}' twice",
-                                label(row.technique->name, row.settings));
+            return fail(Fault::usage, "report.row_given_twice", "--techniques and --sweep give the row '{row}' twice",
+                        label(row.technique->name, row.settings));
     return {};
 }
 
@@ -99,32 +101,33 @@ Result<Variant> variant_of(const Technique& technique, std::string_view way, con
     if (!found) return found.error();
     Variant defaults{*found, base, ""};
     defaults.request.choices.use(**found);
-    return at_point(defaults, is_own ? way : way.substr(first.size()));
+    return at_settings(defaults, is_own ? way : way.substr(first.size()));
 }
 
 Result<std::vector<Variant>> variants(const ReportRequest& wanted) {
     const auto techniques = techniques_of(wanted.stage);
     for (const Sweep& sweep : wanted.sweeps)
         if (std::ranges::none_of(techniques, [&](const Technique* technique) { return has_param(*technique, sweep.key); }))
-            return fail_unnamed(Fault::usage, "no technique of the stage {} has a parameter '{}'", name(wanted.stage), sweep.key);
+            return fail(Fault::usage, "settings.unknown", "no technique of the stage {stage} has a parameter '{setting}'",
+                        name(wanted.stage), sweep.key);
     std::vector<Variant> all;
-    for (const std::string& text : wanted.methods) {
-        auto method = parse_method(wanted.stage, text);
-        if (!method) return method.error();
-        Variant listed{method->technique, wanted.base, method->text};
-        listed.request.choices.use(*method->technique);
-        std::ranges::move(method->settings, std::back_inserter(listed.request.choices.settings));
+    for (const std::string& text : wanted.techniques) {
+        auto variant = parse_variant(wanted.stage, text);
+        if (!variant) return variant.error();
+        Variant listed{variant->technique, wanted.base, variant->text};
+        listed.request.choices.use(*variant->technique);
+        std::ranges::move(variant->settings, std::back_inserter(listed.request.choices.settings));
         std::ranges::move(swept(listed, wanted.sweeps), std::back_inserter(all));
     }
     if (const auto fits = check_sweeps(all, wanted.sweeps); !fits) return fits.error();
     if (const auto differ = check_rows_differ(all); !differ) return differ.error();
-    if (!wanted.methods.empty()) return with_the_time_unit(std::move(all), wanted);
+    if (!wanted.techniques.empty()) return with_the_time_unit(std::move(all), wanted);
     for (const Technique* technique : techniques) {
         Variant defaults{technique, wanted.base, ""};
         defaults.request.choices.use(*technique);
         std::ranges::move(swept(defaults, wanted.sweeps), std::back_inserter(all));
         if (!wanted.sweeps.empty() || wanted.defaults_only) continue;
-        for (const std::string_view point : technique->points) all.push_back(at_point(defaults, point));
+        for (const std::string_view point : technique->variants) all.push_back(at_settings(defaults, point));
     }
     if (const auto fits = check_sweeps(all, wanted.sweeps); !fits) return fits.error();
     if (!wanted.sweeps.empty())

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "passes/technique.h"
 #include "replay/report/report.h"
 
 namespace strata {
@@ -24,8 +23,8 @@ std::string below_stage(std::string_view label);
 /// "key=value ..." of the technique, or "name key=value ..." of another of its stage, which may not be on the list any more.
 Result<Variant> variant_of(const Technique&, std::string_view way, const Request& base);
 
-/// Every technique of the stage at its defaults and at each of its points; or, with sweeps, with every combination of those whose
-/// keys it has. Fails for a key that no technique has.
+/// Every technique of the stage at its defaults and at each of its variants; or, with sweeps, with every combination of those
+/// whose keys it has. Fails for a key that no technique has.
 Result<std::vector<Variant>> variants(const ReportRequest&);
 
 }  // namespace strata

@@ -6,6 +6,9 @@
 
 #include <xxhash.h>
 
+#include "capture_format/frame/frame.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
 #include "passes/reference/ltc_table.h"
 
 namespace strata {

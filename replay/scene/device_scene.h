@@ -4,11 +4,12 @@
 #include <array>
 #include <map>
 
-#include "passes/frame_images.h"
 #include "replay/gpu/executor.h"
 #include "replay/scene/scene_records.h"
 
 namespace strata {
+
+struct FrameImages;  // passes/frame_images.h
 
 class DeviceScene {
 public:

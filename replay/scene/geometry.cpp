@@ -11,6 +11,10 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
 #include "passes/scene/object_order.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/scene/view_space.h"

@@ -1,4 +1,8 @@
 // The view, the lights and their shadow maps as records.
+#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/scene/light_records.h"
 #include "passes/scene/scene_facts.h"
 #include "replay/scene/scene_records.h"
@@ -55,7 +59,7 @@ ViewRecord view_record(const Frame& frame) {
 
 void add_lights(const SceneFacts& facts, SceneRecords& scene) {
     const Frame& frame = facts.frame();
-    static_cast<LightRecords&>(scene) = light_records(frame);
+    static_cast<LightRecords&>(scene) = light_records(frame, facts.lights());
     std::uint32_t shadowed = 0;
     const std::vector<ShadowView>& views = facts.shadow_views(Allocation::own);
     for (const ShadowView& view : views) {

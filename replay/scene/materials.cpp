@@ -1,6 +1,9 @@
 // Materials and textures as records: texels of every texture in one buffer of uints, mips finest first.
 #include <cstring>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/particles.h"
+#include "capture_format/frame/texture.h"
 #include "replay/scene/scene_records.h"
 
 namespace strata {

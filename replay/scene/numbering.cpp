@@ -1,8 +1,9 @@
 #include "replay/scene/numbering.h"
 
 #include <algorithm>
+#include <cstddef>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/no_index.h"
 
 namespace strata {
 

@@ -4,13 +4,15 @@
 
 #include <vector>
 
-#include "capture_format/frame.h"
-#include "passes/graph/graph.h"
 #include "passes/scene/light_records.h"
-#include "passes/scene/scene_facts.h"
-#include "passes/shaders/scene.shared.h"
+#include "passes/shaders/scene/draws.shared.h"
+#include "passes/shaders/scene/materials.shared.h"
+#include "passes/shaders/scene/shadows.shared.h"
+#include "passes/shaders/scene/view.shared.h"
 
 namespace strata {
+
+class SceneFacts;  // passes/scene/scene_facts.h
 
 /// VkDrawIndexedIndirectCommand. first_instance is the draw's index into Draws.
 struct DrawCommand {

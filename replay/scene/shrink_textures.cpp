@@ -6,6 +6,8 @@
 #include <fmt/core.h>
 
 #include "capture_format/codec/texture_bytes.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/texture.h"
 
 namespace strata {
 namespace {

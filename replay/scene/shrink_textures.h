@@ -2,12 +2,13 @@
 // it is judged by then see the same textures.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "capture_format/frame.h"
-
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
 
 /// Leaves out the finest mips of the largest textures until all take at most `budget` bytes, or only coarsest mips are left.
 /// Returns a sentence for each texture that lost some.

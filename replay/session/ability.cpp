@@ -3,6 +3,8 @@
 #include <fmt/ranges.h>
 
 #include "passes/registry.h"
+#include "passes/technique.h"
+#include "replay/session/choices.h"
 
 namespace strata {
 
@@ -14,12 +16,13 @@ Result<const Technique*> technique_with(const Ability& ability, const ChoiceChan
             able.push_back(&technique);
             names.push_back(technique.name);
         }
-    if (able.empty()) return fail_unnamed(Fault::usage, "every technique that is built in {}", ability.lacking);
+    if (able.empty())
+        return fail(Fault::usage, "technique.none_is_able", "every technique that is built in {lacking}", ability.lacking);
     const Technique* chosen = choices.technique(able.front()->stage);
     if (!chosen) return able.front();
     if (!ability.is_had_by(*chosen))
-        return fail_unnamed(
-            Fault::usage, "{} {}; {}", chosen->name, ability.lacking,
+        return fail(
+            Fault::usage, "technique.is_unable", "{technique} {lacking}; {able}", chosen->name, ability.lacking,
             names.size() == 1 ? fmt::format("{} does", names.front()) : fmt::format("these do: {}", fmt::join(names, ", ")));
     return chosen;
 }

@@ -3,9 +3,12 @@
 
 #include <string_view>
 
-#include "replay/session/frame_plan.h"
+#include "capture_format/result.h"
 
 namespace strata {
+
+struct ChoiceChanges;  // replay/session/choices.h
+struct Technique;      // passes/technique.h
 
 /// What a verb needs of a technique (see Abilities), and how to say that one lacks it.
 struct Ability {

@@ -5,39 +5,24 @@
 
 #include <fmt/format.h>
 
-#include "capture_format/nearest_name.h"
+#include "passes/graph/step.h"
 #include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 
 namespace strata {
 namespace {
 
-/// A technique as a user names it: with its stage, or without where no other stage has one of that name.
-Result<const Technique*> technique_of_word(std::string_view word) {
-    if (word.find('/') != word.npos) return find_technique(word);
-    std::vector<const Technique*> found;
-    std::vector<std::string_view> names, known;
-    for (const Technique& technique : techniques()) {
-        known.insert(known.end(), {technique.name, short_name(technique)});
-        if (short_name(technique) != word) continue;
-        found.push_back(&technique);
-        names.push_back(technique.name);
-    }
-    if (found.empty()) return fail_unnamed(Fault::usage, "no technique {}{}", word, did_you_mean(word, known));
-    if (found.size() > 1)
-        return fail_unnamed(Fault::usage, "{} stages have a technique {}: choose {}", found.size(), word,
-                            fmt::join(names, " or "));
-    return found.front();
-}
-
 /// "key=value" or "stage/technique:key=value".
 Result<SettingChange> parse_set(std::string_view set) {
     const std::size_t equals = set.find('=');
-    if (equals == std::string_view::npos) return fail_unnamed(Fault::usage, "--set takes key=value, not '{}'", set);
+    if (equals == std::string_view::npos)
+        return fail(Fault::usage, "settings.no_value", "--set takes key=value, not '{given}'", set);
     const std::string_view value = set.substr(equals + 1), place = set.substr(0, equals);
     const std::size_t colon = place.find(':');
     SettingChange change{nullptr, std::string(place.substr(colon == place.npos ? 0 : colon + 1)), std::string(value)};
     if (colon == place.npos) return change;
-    const auto technique = technique_of_word(place.substr(0, colon));
+    const auto technique = technique_called(place.substr(0, colon));
     if (!technique) return technique.error();
     change.technique = *technique;
     Settings settings((*technique)->params);
@@ -62,12 +47,12 @@ std::string_view short_name(const Technique& technique) { return technique.name.
 Result<ChoiceChanges> parse_choices(std::span<const std::string> uses, std::span<const std::string> sets) {
     ChoiceChanges changes;
     for (const std::string& use : uses) {
-        const auto technique = technique_of_word(use);
+        const auto technique = technique_called(use);
         if (!technique) return technique.error();
         const Technique* earlier = changes.techniques[static_cast<std::size_t>((*technique)->stage)];
         if (earlier)
-            return fail_unnamed(Fault::usage, "--use names two techniques of one stage: {} and {}", earlier->name,
-                                (*technique)->name);
+            return fail(Fault::usage, "technique.two_of_a_stage",
+                        "--use names two techniques of one stage: {technique} and {other}", earlier->name, (*technique)->name);
         changes.use(**technique);
     }
     for (const std::string& set : sets) {
@@ -77,8 +62,8 @@ Result<ChoiceChanges> parse_choices(std::span<const std::string> uses, std::span
             return earlier.technique == change->technique && earlier.key == change->key;
         };
         if (const auto earlier = std::ranges::find_if(changes.settings, is_same); earlier != changes.settings.end())
-            return fail_unnamed(Fault::usage, "--set gives {} twice: {} and {}", change->key, text_of(*earlier),
-                                text_of(*change));
+            return fail(Fault::usage, "settings.given_twice", "--set gives {setting} twice: {first} and {second}", change->key,
+                        text_of(*earlier), text_of(*change));
         changes.settings.push_back(*std::move(change));
     }
     return changes;
@@ -88,15 +73,16 @@ Result<SettingChange> parse_setting(const Technique& technique, std::string_view
     return parse_set(fmt::format("{}:{}", technique.name, text));
 }
 
-Result<Method> parse_method(Stage stage, std::string_view text) {
+Result<ParsedVariant> parse_variant(Stage stage, std::string_view text) {
     std::istringstream words{std::string(text)};
     std::string word;
     words >> word;
-    const auto found = find_technique(word.find('/') == word.npos ? fmt::format("{}/{}", name(stage), word) : word);
+    const auto found = technique_called(word, stage);
     if (!found) return found.error();
     if ((*found)->stage != stage)
-        return fail_unnamed(Fault::usage, "{} is of the stage {}, not of {}", word, name((*found)->stage), name(stage));
-    Method method{*found, {}, ""};
+        return fail(Fault::usage, "technique.of_another_stage", "{technique} is of the stage {stage}, not of {wanted}", word,
+                    name((*found)->stage), name(stage));
+    ParsedVariant variant{*found, {}, ""};
     Settings settings((*found)->params);
     while (words >> word) {
         auto change = parse_setting(**found, word);
@@ -104,12 +90,13 @@ Result<Method> parse_method(Stage stage, std::string_view text) {
         if (const auto done = std::visit([&](const auto& value) { return settings.set(change->key, value); }, change->value);
             !done)
             return done.error();
-        if (std::ranges::count(method.settings, change->key, &SettingChange::key) > 0)
-            return fail_unnamed(Fault::usage, "--methods gives {} twice in '{}'", change->key, text);
-        method.settings.push_back(*std::move(change));
-        method.text += fmt::format("{}{}", method.text.empty() ? "" : " ", word);
+        if (std::ranges::count(variant.settings, change->key, &SettingChange::key) > 0)
+            return fail(Fault::usage, "settings.given_twice", "--techniques gives {setting} twice in '{variant}'", change->key,
+                        text);
+        variant.settings.push_back(*std::move(change));
+        variant.text += fmt::format("{}{}", variant.text.empty() ? "" : " ", word);
     }
-    return method;
+    return variant;
 }
 
 std::vector<std::string> use_texts(const ChoiceChanges& changes) {

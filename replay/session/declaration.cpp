@@ -4,6 +4,9 @@
 
 #include "capture_format/nearest_name.h"
 #include "passes/gbuffer/surfaces.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
+#include "replay/session/memo.h"
 
 namespace strata {
 namespace {
@@ -42,9 +45,11 @@ Result<void> add_inside(Declaration& d, const std::string& output) {
             if (is_wanted(view)) return d.outputs[output] = make(view), Result<void>();
         for (const DebugTable& table : choice.technique->tables)
             if (is_wanted(table)) return d.tables[output] = {&table, make(table)}, Result<void>();
-        return fail_unnamed(Fault::usage, "{} has no view '{}'{}", technique, wanted, did_you_mean(wanted, known));
+        return fail(Fault::usage, "technique.unknown_view", "{technique} has no view '{view}'{suggestion}", technique, wanted,
+                    did_you_mean(wanted, known));
     }
-    return fail_unnamed(Fault::usage, "'{}' is not chosen for this frame, so it has no views; choose it with --use", technique);
+    return fail(Fault::usage, "technique.not_chosen",
+                "'{technique}' is not chosen for this frame, so it has no views; choose it with --use", technique);
 }
 
 /// Fills Declaration::outputs and keeps them.
@@ -57,12 +62,15 @@ Result<void> keep_outputs(Declaration& d, std::span<const std::string> wanted) {
         const FrameImageRow* row = find_frame_image(output);
         std::vector<std::string_view> known;
         for (const FrameImageRow& candidate : frame_images()) known.push_back(candidate.name);
-        if (!row) return fail_unnamed(Fault::usage, "a frame has no image '{}'{}", output, did_you_mean(output, known));
+        if (!row)
+            return fail(Fault::usage, "frame.unknown_image", "a frame has no image '{image}'{suggestion}", output,
+                        did_you_mean(output, known));
         const Image image = d.images.*row->member;
         if (!image) continue;  // its stage was left out
         if (d.graph.shape(image).samples > 1)
-            return fail_unnamed(Fault::usage, "'{}' has {} samples per pixel; ask for its layers ('depth_layers')", output,
-                                d.images.samples);
+            return fail(Fault::usage, "frame.multisampled_image",
+                        "'{image}' has {samples} samples per pixel; ask for its layers ('depth_layers')", output,
+                        d.images.samples);
         d.outputs[output] = image;
         d.graph.keep(image);
     }
@@ -74,19 +82,19 @@ void keep_all_of(Declaration& d, const FrameImages& images) {
         if (const Image image = images.*row.member; image && d.graph.shape(image).samples == 1) d.graph.keep(image);
 }
 
-/// Also those in whose place a later act put others.
+/// Also those in whose place a later pass put others.
 void keep_all_images(Declaration& d) {
-    for (const DeclaredAct& act : d.frame.acts) keep_all_of(d, act.before);
+    for (const DeclaredPass& pass : d.frame.passes) keep_all_of(d, pass.before);
     keep_all_of(d, d.images);
 }
 
 void keep_counters(Declaration& d) {
-    for (const DeclaredAct& act : d.frame.acts) {
-        const Buffer buffer = d.graph.counters(act.scope);
-        const bool is_dropped = std::ranges::count(d.graph.steps(), act.scope, &Step::scope) == 0;
-        if (!buffer || act.technique->counters.empty() || is_dropped) continue;
+    for (const DeclaredPass& pass : d.frame.passes) {
+        const Buffer buffer = d.graph.counters(pass.scope);
+        const bool is_dropped = std::ranges::count(d.graph.steps(), pass.scope, &Step::scope) == 0;
+        if (!buffer || pass.technique->counters.empty() || is_dropped) continue;
         d.graph.keep(buffer);
-        d.counters.push_back({act.technique, buffer, act.scope});
+        d.counters.push_back({pass.technique, buffer, pass.scope});
     }
 }
 
@@ -96,7 +104,7 @@ void refresh(const Graph& graph, FrameImages& images) {
         if (Image& image = images.*row.member; image) image.version = graph.record(image).version;
 }
 
-/// Replaces acts by what the memo kept, or has the memo keep what they make.
+/// Replaces passes by what the memo kept, or has the memo keep what they make.
 class Remember {
 public:
     Remember(Declaration& d, const Sources& sources, std::vector<std::vector<std::string>> wanted, std::vector<bool> skip)
@@ -106,70 +114,70 @@ public:
           wanted_(std::move(wanted)),
           skip_(std::move(skip)) {}
 
-    void operator()(const DeclaredAct& act) {
+    void operator()(const DeclaredPass& pass) {
         const std::size_t place = place_++;
         Graph& graph = d_->graph;
-        const std::uint64_t key = keys_.key(graph, act, d_->choices.at(act.technique->stage).settings);
-        d_->act_keys.push_back(key);
-        if (skip_[place]) return remember_counters(key, act);
+        const std::uint64_t key = keys_.key(graph, pass, d_->choices.at(pass.technique->stage).settings);
+        d_->pass_keys.push_back(key);
+        if (skip_[place]) return remember_counters(key, pass);
         if (wanted_[place].empty()) return;
-        if (const KeptAct* kept = memo_->find(key, wanted_[place])) {
-            graph.drop_scope(act.scope);
-            enter_memo(act);
+        if (const KeptPass* kept = memo_->find(key, wanted_[place])) {
+            graph.drop_scope(pass.scope);
+            enter_memo(pass);
             for (const auto& image : kept->images) {
                 Image to = graph.find_image(image.name);
                 graph.copy(graph.import("kept " + image.name, image.shape, image.id), to);
             }
             d_->kept_counters.insert(d_->kept_counters.end(), kept->counters.begin(), kept->counters.end());
-            d_->scopes_from_memo.insert(act.scope);
+            d_->scopes_from_memo.insert(pass.scope);
         } else {
             std::vector<ImageRecord> records;
             for (const std::string& name : wanted_[place]) records.push_back(graph.record(graph.find_image(name)));
-            const KeptAct* room = memo_->reserve(key, records);
+            const KeptPass* room = memo_->reserve(key, records);
             if (!room) return;
-            enter_memo(act);
+            enter_memo(pass);
             for (const auto& image : room->images) {
                 Image to = graph.import("kept " + image.name, image.shape, image.id);
                 graph.copy(graph.find_image(image.name), to);
             }
-            d_->memo_writes.emplace_back(key, act.scope);
+            d_->memo_writes.emplace_back(key, pass.scope);
         }
         refresh(graph, d_->images);
     }
 
 private:
-    void enter_memo(const DeclaredAct& act) {
-        Scope scope = d_->graph.scopes()[act.scope];
+    void enter_memo(const DeclaredPass& pass) {
+        Scope scope = d_->graph.scopes()[pass.scope];
         scope.kind = ScopeKind::memo;
         d_->graph.enter(std::move(scope));
     }
-    /// An act that feeds buffers is declared every time; when nobody needs it this time, its counters are those it had.
-    void remember_counters(std::uint64_t key, const DeclaredAct& act) {
-        if (const KeptAct* kept = memo_->find(key, {})) {
-            d_->counters_if_idle[act.scope] = kept->counters;
+    /// A pass that feeds buffers is declared every time; when nobody needs it this time, its counters are those it had.
+    void remember_counters(std::uint64_t key, const DeclaredPass& pass) {
+        if (const KeptPass* kept = memo_->find(key, {})) {
+            d_->counters_if_idle[pass.scope] = kept->counters;
         } else if (memo_->reserve(key, {})) {
-            d_->memo_writes.emplace_back(key, act.scope);
+            d_->memo_writes.emplace_back(key, pass.scope);
         }
     }
 
     Declaration* d_;
     Memo* memo_;
-    ActKeys keys_;
+    PassKeys keys_;
     std::vector<std::vector<std::string>> wanted_;
     std::vector<bool> skip_;
     std::size_t place_ = 0;
 };
 
-/// Puts images in the place of what a stage's own act gives.
+/// Puts images in the place of what a stage's own pass gives.
 class Give {
 public:
     Give(Declaration& d, Stage stage, const ImageSet& outputs) : d_(&d), stage_(stage), outputs_(&outputs) {}
 
-    void operator()(const DeclaredAct& act) {
-        if (act.technique->stage != stage_ || act.at != stage_) return;
+    void operator()(const DeclaredPass& pass) {
+        if (pass.technique->stage != stage_ || pass.at != stage_) return;
         Graph& graph = d_->graph;
-        const Scope scope = graph.scopes()[act.scope];
-        if (!leaves_images()) graph.drop_scope(act.scope);
+        const Scope scope = graph.scopes()[pass.scope];
+        if (!leaves_images()) graph.drop_scope(pass.scope);
         graph.enter({ScopeKind::given, scope.stage, scope.at, scope.technique});
         const bool makes_nothing = std::ranges::none_of(*outputs_, [&](const auto& output) { return has_image(output.first); });
         for (const auto& [name, texels] : *outputs_) {
@@ -201,7 +209,7 @@ private:
                 .layers = texels.layers};
     }
 
-    /// Whether steps of the act make what no output can stand for.
+    /// Whether steps of the pass make what no output can stand for.
     bool leaves_images() const {
         const auto is_left = [&](std::string_view image) { return bool(d_->images.*find_frame_image(image)->member); };
         return std::ranges::any_of(info(stage_).leaves, is_left);
@@ -212,12 +220,13 @@ private:
     const ImageSet* outputs_;
 };
 
-/// Why images cannot take the place of what the act gives, or nothing.
-std::optional<std::string> cannot_give(const Declaration& d, std::size_t place, const ImageSet& outputs) {
-    const DeclaredAct& act = d.frame.acts[place];
-    const StageInfo& stage = info(act.technique->stage);
-    if (feeds_buffers(d.graph, act.scope)) return fmt::format("later stages read buffers of {}", act.technique->name);
-    const std::vector<std::string> images_read = images_read_later(d.graph, d.frame.acts)[place];
+/// Why images cannot take the place of what the pass gives, or nothing.
+std::optional<Error> cannot_give(const Declaration& d, std::size_t place, const ImageSet& outputs) {
+    const DeclaredPass& pass = d.frame.passes[place];
+    const StageInfo& stage = info(pass.technique->stage);
+    if (feeds_buffers(d.graph, pass.scope))
+        return fail(Fault::usage, "stage.buffers_are_read", "later stages read buffers of {technique}", pass.technique->name);
+    const std::vector<std::string> images_read = images_read_later(d.graph, d.frame.passes)[place];
     for (const std::string& read : images_read) {
         const auto is_read = [&](std::string_view image_name) {
             const Image image = d.images.*find_frame_image(image_name)->member;
@@ -226,17 +235,18 @@ std::optional<std::string> cannot_give(const Declaration& d, std::size_t place, 
         if (std::ranges::any_of(stage.leaves, is_read)) continue;
         const auto output = std::ranges::find_if(stage.outputs, is_read);
         const auto given = output == stage.outputs.end() ? outputs.end() : outputs.find(*output);
-        if (given == outputs.end()) return fmt::format("later stages read '{}', which is not given", read);
+        if (given == outputs.end())
+            return fail(Fault::usage, "stage.output_not_given", "later stages read '{image}', which is not given", read);
         const Shape& shape = d.graph.shape(d.graph.find_image(read));
         const ReferenceImage& image = given->second;
         if (row(shape.format).kind != FormatKind::real || shape.samples > 1 || shape.extent.width != image.width ||
             shape.extent.height != image.height || shape.layers != image.layers)
-            return fmt::format("'{}' has another shape than the image given", read);
+            return fail(Fault::usage, "stage.output_of_another_shape", "'{image}' has another shape than the image given", read);
     }
     return {};
 }
 
-/// Acts that were culled whole count what they counted when they ran.
+/// Passes that were culled whole count what they counted when they ran.
 void settle_idle_counters(Declaration& d) {
     for (const auto& [scope, counters] : d.counters_if_idle) {
         const auto in_scope = [&](const PlannedStep& planned) { return planned.step.scope == scope; };
@@ -246,7 +256,7 @@ void settle_idle_counters(Declaration& d) {
     }
 }
 
-Result<void> fill(Declaration& d, const Request& request, const Sources& sources, Keep keep, const AfterAct& after) {
+Result<void> fill(Declaration& d, const Request& request, const Sources& sources, Keep keep, const AfterPass& after) {
     d.images = start(sources, d.graph);
     auto frame = declare_frame(d.graph, d.images, d.choices, sources.device.capabilities, after);
     if (!frame) return frame.error();
@@ -274,10 +284,10 @@ Result<Declaration> declare(const Request& request, const Sources& sources, Keep
     d.choices = *choices;
     if (const auto filled = fill(d, request, sources, keep, {}); !filled) return filled.error();
     if (sources.memo) {
-        // Declaring is cheap (DECISIONS.md 13): the first declaration tells what later acts read, the second one remembers it.
+        // Declaring is cheap (DECISIONS.md 13): the first declaration tells what later passes read, the second one remembers it.
         std::vector<bool> skip;
-        for (const DeclaredAct& act : d.frame.acts) skip.push_back(feeds_buffers(d.graph, act.scope));
-        auto wanted = images_read_later(d.graph, d.frame.acts);
+        for (const DeclaredPass& pass : d.frame.passes) skip.push_back(feeds_buffers(d.graph, pass.scope));
+        auto wanted = images_read_later(d.graph, d.frame.passes);
         sources.memo->begin_run();
         d = Declaration{};
         d.choices = *choices;
@@ -295,11 +305,12 @@ Result<Declaration> declare_from(const Request& request, const Sources& sources,
     Declaration d;
     d.choices = *choices;
     if (const auto filled = fill(d, request, sources, Keep::outputs, {}); !filled) return filled.error();
-    const auto is_own = [&](const DeclaredAct& act) { return act.technique->stage == stage && act.at == stage; };
-    const auto own = std::ranges::find_if(d.frame.acts, is_own);
-    if (own == d.frame.acts.end()) return fail_unnamed(Fault::usage, "the frame does not need the stage {}", name(stage));
-    if (const auto why = cannot_give(d, static_cast<std::size_t>(own - d.frame.acts.begin()), outputs))
-        return fail_unnamed(Fault::usage, "no image can take the place of what {} gives: {}", name(stage), *why);
+    const auto is_own = [&](const DeclaredPass& pass) { return pass.technique->stage == stage && pass.at == stage; };
+    const auto own = std::ranges::find_if(d.frame.passes, is_own);
+    if (own == d.frame.passes.end())
+        return fail(Fault::usage, "stage.not_needed", "the frame does not need the stage {stage}", name(stage));
+    if (const auto why = cannot_give(d, static_cast<std::size_t>(own - d.frame.passes.begin()), outputs))
+        return within(*why, "no image can take the place of what {stage} gives", name(stage));
     d = Declaration{};
     d.choices = *choices;
     const auto filled = fill(d, request, sources, Keep::outputs, Give(d, stage, outputs));

@@ -6,6 +6,10 @@
 #include <cstring>
 #include <functional>
 
+#include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
+
 namespace strata {
 
 namespace {
@@ -35,8 +39,9 @@ Result<Execution> without_fatal_counts(const Declaration& d, Execution execution
     for (const CounterSource& source : d.counters)
         for (const Counter& counter : source.technique->counters)
             if (const std::uint32_t count = count_of(execution, source, counter); counter.is_fatal && count > 0)
-                return fail_unnamed(Fault::device_lacks, "what {} shows would be wrong on this device: {} {} ({})",
-                                    source.technique->name, count, counter.name, counter.help);
+                return fail(Fault::device_lacks, "technique.fatal_counter",
+                            "what {technique} shows would be wrong on this device: {count} {counter} ({help})",
+                            source.technique->name, count, counter.name, counter.help);
     return execution;
 }
 
@@ -101,7 +106,7 @@ std::vector<UnsupportedChoice> not_supported(const Declaration& d, const Feature
     for (const auto& [stage, choice] : d.choices) {
         const Technique& technique = *choice.technique;
         if (std::string reason = unsupported_because(technique, features);
-            !reason.empty() && std::ranges::count(d.frame.acts, &technique, &DeclaredAct::technique))
+            !reason.empty() && std::ranges::count(d.frame.passes, &technique, &DeclaredPass::technique))
             choices.push_back({std::string(technique.name), std::move(reason)});
     }
     return choices;
@@ -111,7 +116,7 @@ std::vector<std::string> notes_of_techniques(const Declaration& d) {
     std::vector<std::string> notes;
     for (const auto& [stage, choice] : d.choices) {
         const Technique& technique = *choice.technique;
-        if (!technique.notes || !std::ranges::count(d.frame.acts, &technique, &DeclaredAct::technique)) continue;
+        if (!technique.notes || !std::ranges::count(d.frame.passes, &technique, &DeclaredPass::technique)) continue;
         std::ranges::copy(technique.notes(d.images, choice.settings), std::back_inserter(notes));
     }
     return notes;
@@ -132,14 +137,14 @@ Run describe_run(const Declaration& d) {
             .image_bytes = d.plan.image_bytes,
             .buffer_bytes = d.plan.buffer_bytes};
     for (const PlannedStep& step : d.plan.steps) run.steps.push_back({d.plan.scopes[step.step.scope], step.step.name, {}});
-    for (const DeclaredAct& act : d.frame.acts)
-        run.choices[std::string(name(act.technique->stage))] = choice_line(d.choices.at(act.technique->stage));
+    for (const DeclaredPass& pass : d.frame.passes)
+        run.choices[std::string(name(pass.technique->stage))] = choice_line(d.choices.at(pass.technique->stage));
     run.memory.over_time = memory_over_time(d.plan);
     for (const auto& [stage, memory] : run.memory.over_time.stages) run.stage_bytes[stage] = memory.allocated;
-    run.acts_from_memo = d.scopes_from_memo.size();
+    run.passes_from_memo = d.scopes_from_memo.size();
     std::set<std::uint32_t> scopes;
     for (const PlannedStep& step : d.plan.steps) scopes.insert(step.step.scope);
-    for (const DeclaredAct& act : d.frame.acts) run.acts_executed += scopes.contains(act.scope);
+    for (const DeclaredPass& pass : d.frame.passes) run.passes_executed += scopes.contains(pass.scope);
     return run;
 }
 
@@ -172,7 +177,7 @@ void add_costs(Run& run, const std::vector<std::vector<StepCost>>& repeats, cons
     for (const auto& [stage, choice] : run.choices) {
         const auto is_its = [&](std::size_t step) {
             const Scope& scope = run.steps[step].scope;
-            return scope.kind == ScopeKind::act && name(scope.stage) == stage;
+            return scope.kind == ScopeKind::pass && name(scope.stage) == stage;
         };
         auto sums = sums_of(is_its);
         add_sorts(stage, sums);

@@ -20,17 +20,17 @@ std::vector<CounterRecord> read_counters(const Declaration&, const Execution&, s
 Result<Execution> without_fatal_counts(const Declaration&, Execution);
 /// Techniques that counted too little: a step that counts was left out, or comes after the last one to run.
 std::set<std::string> not_counted(const Declaration&, std::optional<std::size_t> until);
-/// A technique that acts at several stages counts in each: equal counters are added up.
+/// A technique that runs at several stages counts in each: equal counters are added up.
 std::vector<CounterRecord> summed(std::vector<CounterRecord>);
-/// The counters of a run: of this execution and of the acts that the memo kept, without the techniques of not_counted().
+/// The counters of a run: of this execution and of the passes that the memo kept, without the techniques of not_counted().
 std::vector<CounterRecord> run_counters(const Declaration&, const Execution&, std::optional<std::size_t> until = {});
 /// By stage: what the host sorted for it in each repeat, in milliseconds.
 using SortTimes = std::map<std::string, std::vector<double>>;
 /// Spreads over repeats of the milliseconds of each step, and of what was sorted; how often shaders ran, in the last one.
 void add_costs(Run&, const std::vector<std::vector<StepCost>>& repeats, const SortTimes&);
-/// The techniques of the frame's acts that cannot do one of its features.
+/// The techniques of the frame's passes that cannot do one of its features.
 std::vector<UnsupportedChoice> not_supported(const Declaration&, const Features&);
-/// What the techniques of the frame's acts say of it (Technique::notes).
+/// What the techniques of the frame's passes say of it (Technique::notes).
 std::vector<std::string> notes_of_techniques(const Declaration&);
 /// "technique key=value ..."
 std::string choice_line(const Choice&);

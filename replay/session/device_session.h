@@ -6,9 +6,13 @@
 #include <set>
 #include <variant>
 
+#include "capture_format/frame.h"
+#include "capture_format/reader.h"
+#include "passes/blend_rounding.h"
 #include "passes/reference/fragments.h"
 #include "replay/gpu/executor.h"
 #include "replay/session/declaration.h"
+#include "replay/session/memo.h"
 #include "replay/session/memory_need.h"
 #include "replay/session/session.h"
 
@@ -59,21 +63,21 @@ public:
     Result<TimedRun> time_alone(const Request&);
     Result<StepCounts> count(const Request&);  ///< see count_steps()
     /// What one request took in one turn: its steps, and by stage what the host sorted, in milliseconds.
-    struct TurnTimes {
+    struct RequestTimes {
         std::vector<StepCost> steps;
         std::map<std::string, double> sorts;
     };
-    using Turn = std::vector<TurnTimes>;
+    using RepeatTimes = std::vector<RequestTimes>;
     /// Runs every request once, what they share once. The first turn makes the runs that the others add times to; counters are
     /// those of the last turn, in which state that outlives a frame (Graph::remember) is what it was when the times were taken.
-    Result<Turn> time_in_turn(std::span<const Request>, std::vector<Run>&, const Progress&);
+    Result<RepeatTimes> time_one_repeat(std::span<const Request>, std::vector<Run>&, const Progress&);
     Result<void> time_sorts(const Request&, const Run&, std::map<std::string, double>& sorts);
 
 private:
-    /// Every image as a stage's technique (its last act) found it: the same for every technique of the stage, so the latest is
+    /// Every image as a stage's technique (its last pass) found it: the same for every technique of the stage, so the latest is
     /// kept, and the transparent fragments before it as soon as a model wants them.
     struct Found {
-        std::vector<std::uint64_t> keys;  ///< of the acts before (ActKeys: the frame is in each); empty: never the same again
+        std::vector<std::uint64_t> keys;  ///< of the passes before (PassKeys: the frame is in each); empty: never the same again
         ImageSet images;
         std::optional<FragmentLists> fragments;
     };
@@ -106,7 +110,7 @@ private:
     std::optional<std::string> lacking(const Request&, Stage) const;
     /// What is known of a run that executes everything, before any run.
     Result<Run> plan_run(const Request&);
-    Result<Run> run_with_acts(const Request&);
+    Result<Run> run_with_passes(const Request&);
 
     /// Loads the frame's variant when it is not the current one.
     Result<void> load_variant(const FrameVariant&);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/particles.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/triangles.h"
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string>
 
-#include "capture_format/frame.h"
-
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
 
 /// "draw 3 'pane'" or "emitter 0 'smoke'", by Fragment::submission.
 std::string drawn_by(const Frame&, std::uint32_t submission);

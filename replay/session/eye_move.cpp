@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -99,14 +100,14 @@ Result<EyeMove> eye_move_of(std::string_view text) {
         const std::string_view name = part.substr(0, equals), number = part.substr(std::min(equals + 1, part.size()));
         const auto axis = std::ranges::find(axes, name, &EyeAxis::name);
         if (axis == std::end(axes))
-            return fail_unnamed(Fault::usage, "--eye takes {}, not '{}'{}", fmt::join(known, ", "), name,
-                                did_you_mean(name, known));
+            return fail(Fault::usage, "eye.unknown_axis", "--eye takes {axes}, not '{axis}'{suggestion}",
+                        fmt::format("{}", fmt::join(known, ", ")), name, did_you_mean(name, known));
         if (std::exchange(given[static_cast<std::size_t>(axis - axes)], true))
-            return fail_unnamed(Fault::usage, "--eye gives {} twice", name);
+            return fail(Fault::usage, "eye.axis_given_twice", "--eye gives {axis} twice", name);
         double& value = move.*axis->member;
         const auto [end, problem] = std::from_chars(number.data(), number.data() + number.size(), value);
         if (problem != std::errc() || end != number.data() + number.size() || !std::isfinite(value))
-            return fail_unnamed(Fault::usage, "--eye: {} takes a finite number, not '{}'", name, number);
+            return fail(Fault::usage, "eye.not_a_number", "--eye: {axis} takes a finite number, not '{value}'", name, number);
     }
     return move;
 }

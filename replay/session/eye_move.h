@@ -6,12 +6,12 @@
 #include <string>
 #include <string_view>
 
-#include "capture_format/frame.h"
 #include "capture_format/result.h"
+#include "capture_format/view.h"
 
 namespace strata {
 
-/// Against the recorded view: metres along its axes, then turns, each about the eye's own axes as the ones before it left them.
+/// Against the recorded view: meters along its axes, then turns, each about the eye's own axes as the ones before it left them.
 struct EyeMove {
     double dolly = 0;     ///< ahead
     double truck = 0;     ///< to the right
@@ -34,7 +34,7 @@ View moved(const View& recorded, const EyeMove&);
 /// What moves one view to the place and the direction of another. Its tilt is at most a right angle up or down; there it pans and
 /// does not roll.
 EyeMove move_between(const View& recorded, const View& wanted);
-/// The view turned around a point `distance` metres ahead of it, which stays where it is on the screen: to the right around the
+/// The view turned around a point `distance` meters ahead of it, which stays where it is on the screen: to the right around the
 /// world's axis `up`, and up around the view's own x.
 struct Orbit {
     double distance = 1;

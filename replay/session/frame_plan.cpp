@@ -4,7 +4,13 @@
 
 #include <fmt/format.h>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/stage_choice.h"
 #include "capture_format/nearest_name.h"
+#include "passes/graph/graph.h"
+#include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 
 namespace strata {
 namespace {
@@ -33,15 +39,17 @@ void apply_recorded(const Frame& frame, Choices& choices) {
 Error no_such_parameter(const Choices& choices, const SettingChange& change, std::span<const std::string_view> known) {
     const auto owner = std::ranges::find_if(techniques(), [&](const Technique& one) { return change.fits(one); });
     if (owner == techniques().end() && change.technique)
-        return fail_unnamed(Fault::usage, "{} has no parameter '{}'{}", change.technique->name, change.key,
-                            did_you_mean(change.key, known));
+        return fail(Fault::usage, "settings.unknown", "{technique} has no parameter '{setting}'{suggestion}",
+                    change.technique->name, change.key, did_you_mean(change.key, known));
     if (owner == techniques().end())
-        return fail_unnamed(Fault::usage, "no technique has a parameter '{}'{}", change.key, did_you_mean(change.key, known));
+        return fail(Fault::usage, "settings.unknown", "no technique has a parameter '{setting}'{suggestion}", change.key,
+                    did_you_mean(change.key, known));
     const auto chosen = choices.find(owner->stage);
-    return fail_unnamed(Fault::usage,
-                        "{} is the chosen technique of {} and has no parameter '{}'; {} has it: pass --use {} instead",
-                        chosen == choices.end() ? "nothing" : chosen->second.technique->name, name(owner->stage), change.key,
-                        owner->name, owner->name);
+    return fail(Fault::usage, "settings.of_another_technique",
+                "{chosen} is the chosen technique of {stage} and has no parameter '{setting}'; {technique} has it: pass --use "
+                "{use} instead",
+                chosen == choices.end() ? "nothing" : chosen->second.technique->name, name(owner->stage), change.key, owner->name,
+                owner->name);
 }
 
 Result<void> apply(Choices& choices, const SettingChange& change) {
@@ -59,24 +67,24 @@ Result<void> apply(Choices& choices, const SettingChange& change) {
 }
 
 /// Declares what the technique does at one place of the frame, in a scope of its own.
-DeclaredAct act(Graph& graph, FrameImages& images, const Choice& choice, const StageWork& what) {
+DeclaredPass pass(Graph& graph, FrameImages& images, const Choice& choice, const StageWork& what) {
     const Technique& technique = *choice.technique;
-    graph.enter({ScopeKind::act, technique.stage, what.at, std::string(technique.name)}, technique.counter_bytes);
+    graph.enter({ScopeKind::pass, technique.stage, what.at, std::string(technique.name)}, technique.counter_bytes);
     const auto scope = static_cast<std::uint32_t>(graph.scopes().size() - 1);
-    DeclaredAct declared{&technique, what.at, scope, images};
+    DeclaredPass declared{&technique, what.at, scope, images};
     what.declare(graph, images, choice.settings);
     return declared;
 }
 
-/// Every act in the order of the frame: what earlier stages finish there, the stage's own technique, what later ones prepare.
-std::vector<std::pair<const Choice*, StageWork>> acts_at(Stage stage, const Choices& wanted) {
-    std::vector<std::pair<const Choice*, StageWork>> acts;
+/// Every pass in the order of the frame: what earlier stages finish there, the stage's own technique, what later ones prepare.
+std::vector<std::pair<const Choice*, StageWork>> passes_at(Stage stage, const Choices& wanted) {
+    std::vector<std::pair<const Choice*, StageWork>> passes;
     for (const auto& [own, choice] : wanted) {
-        if (own == stage) acts.push_back({&choice, {stage, choice.technique->declare}});
+        if (own == stage) passes.push_back({&choice, {stage, choice.technique->declare}});
         for (const StageWork& other : choice.technique->at_other_stages)
-            if (other.at == stage) acts.push_back({&choice, other});
+            if (other.at == stage) passes.push_back({&choice, other});
     }
-    return acts;
+    return passes;
 }
 
 bool works_at(const Technique& technique, Stage stage) {
@@ -101,6 +109,8 @@ bool has_param(const Technique& technique, std::string_view key) {
 
 bool SettingChange::fits(const Technique& one) const { return (!technique || technique == &one) && has_param(one, key); }
 
+void ChoiceChanges::use(const Technique& technique) { techniques[static_cast<std::size_t>(technique.stage)] = &technique; }
+
 void ChoiceChanges::drop(Stage stage) {
     techniques[static_cast<std::size_t>(stage)] = nullptr;
     std::erase_if(settings, [&](const SettingChange& change) { return change.technique && change.technique->stage == stage; });
@@ -119,17 +129,18 @@ Result<Choices> choose(const Frame& frame, const ChoiceChanges& changes) {
     return choices;
 }
 
-std::optional<std::string> beyond_device(const Choice& choice, const FrameImages& images) {
+std::optional<Error> beyond_device(const Choice& choice, const FrameImages& images) {
     const Technique& technique = *choice.technique;
     for (const Capability needed : technique.needs)
         if (!has(images.capabilities, needed))
-            return fmt::format("{} needs {}, which this device does not have", technique.name, name(needed));
+            return fail(Fault::device_lacks, "device.lacks_feature",
+                        "{technique} needs {feature}, which this device does not have", technique.name, name(needed));
     if (!technique.beyond_device) return std::nullopt;
     return technique.beyond_device(images, choice.settings);
 }
 
 Result<DeclaredFrame> declare_frame(Graph& graph, FrameImages& images, const Choices& choices, const Capabilities& device,
-                                    const AfterAct& after) {
+                                    const AfterPass& after) {
     DeclaredFrame frame;
     Choices wanted;
     images.capabilities = device;
@@ -140,16 +151,15 @@ Result<DeclaredFrame> declare_frame(Graph& graph, FrameImages& images, const Cho
         } else if (choice == choices.end()) {
             if (const auto why = unserved(stage.stage, choices)) frame.skipped.push_back({stage.stage, *why});
         } else {
-            if (const auto why = beyond_device(choice->second, images)) return fail_unnamed(Fault::device_lacks, "{}", *why);
-            if (const auto why = stage.beyond_device ? stage.beyond_device(images) : std::nullopt)
-                return fail_unnamed(Fault::device_lacks, "{}", *why);
+            if (const auto why = beyond_device(choice->second, images)) return *why;
+            if (const auto why = stage.beyond_device ? stage.beyond_device(images) : std::nullopt) return *why;
             wanted.insert(*choice);
         }
     }
     for (const StageInfo& stage : stages()) {
-        for (const auto& [choice, what] : acts_at(stage.stage, wanted)) {
-            frame.acts.push_back(act(graph, images, *choice, what));
-            if (after) after(frame.acts.back());
+        for (const auto& [choice, what] : passes_at(stage.stage, wanted)) {
+            frame.passes.push_back(pass(graph, images, *choice, what));
+            if (after) after(frame.passes.back());
         }
     }
     return frame;

@@ -1,12 +1,15 @@
-// Looking inside a frame: what acts and steps gave, what a stage found, and how it fares against model and truth.
+// Looking inside a frame: what passes and steps gave, what a stage found, and how it fares against model and truth.
 #include <algorithm>
 #include <set>
 
 #include "passes/indirect/volume_light.h"
+#include "passes/stage_input.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/measure/host_memory.h"
 #include "replay/session/describe_run.h"
 #include "replay/session/device_session.h"
-#include "replay/session/judgement.h"
+#include "replay/session/judgment.h"
 #include "replay/session/until_stopped.h"
 
 namespace strata {
@@ -47,42 +50,43 @@ struct PeekedImage {
     std::size_t peek = 0;
 };
 
-/// The frame's images as an act left them: a later one may have put others in their place.
-const FrameImages& images_after(const Declaration& d, std::size_t act) {
-    return act + 1 < d.frame.acts.size() ? d.frame.acts[act + 1].before : d.images;
+/// The frame's images as a pass left them: a later one may have put others in their place.
+const FrameImages& images_after(const Declaration& d, std::size_t pass) {
+    return pass + 1 < d.frame.passes.size() ? d.frame.passes[pass + 1].before : d.images;
 }
 
-/// The outputs of its stage that an act writes, after its last step.
+/// The outputs of its stage that a pass writes, after its last step.
 std::vector<PeekedImage> peek_outputs(const Declaration& d, std::size_t place, Peeks& peeks) {
-    const DeclaredAct& act = d.frame.acts[place];
+    const DeclaredPass& pass = d.frame.passes[place];
     std::vector<PeekedImage> places;
-    for (const std::string_view output : info(act.technique->stage).outputs) {
+    for (const std::string_view output : info(pass.technique->stage).outputs) {
         const Image image = images_after(d, place).*find_frame_image(output)->member;
         if (!image || d.graph.shape(image).samples > 1) continue;
-        const auto step = last_write(d.plan, image, first_step_after(d.plan, act.scope));
-        if (step && d.plan.steps[*step].step.scope == act.scope) places.push_back({std::string(output), peeks.add(*step, image)});
+        const auto step = last_write(d.plan, image, first_step_after(d.plan, pass.scope));
+        if (step && d.plan.steps[*step].step.scope == pass.scope)
+            places.push_back({std::string(output), peeks.add(*step, image)});
     }
     return places;
 }
 
-/// How many acts stand before the last one of a stage's technique; nothing when it has none.
-std::optional<std::size_t> before_last_act(const Declaration& d, Stage stage) {
-    for (std::size_t i = d.frame.acts.size(); i-- > 0;)
-        if (d.frame.acts[i].technique->stage == stage) return i;
+/// How many passes stand before the last one of a stage's technique; nothing when it has none.
+std::optional<std::size_t> before_last_pass(const Declaration& d, Stage stage) {
+    for (std::size_t i = d.frame.passes.size(); i-- > 0;)
+        if (d.frame.passes[i].technique->stage == stage) return i;
     return {};
 }
 
-/// The last scope of an act: what the memo keeps of it, or puts in its place, is in one of its own.
-std::uint32_t end_scope(const Declaration& d, const DeclaredAct& act) {
-    const bool in_memo = act.scope + 1 < d.graph.scopes().size() && d.graph.scopes()[act.scope + 1].kind == ScopeKind::memo;
-    return act.scope + (in_memo ? 1 : 0);
+/// The last scope of a pass: what the memo keeps of it, or puts in its place, is in one of its own.
+std::uint32_t end_scope(const Declaration& d, const DeclaredPass& pass) {
+    const bool in_memo = pass.scope + 1 < d.graph.scopes().size() && d.graph.scopes()[pass.scope + 1].kind == ScopeKind::memo;
+    return pass.scope + (in_memo ? 1 : 0);
 }
 
 /// Whether a step belongs to the stage's technique: what another stage drew over its output later is not its result.
 bool is_step_of(const Declaration& d, Stage stage, std::size_t step) {
     const std::uint32_t scope = d.plan.steps[step].step.scope;
-    return std::ranges::any_of(d.frame.acts, [&](const DeclaredAct& act) {
-        return act.technique->stage == stage && (act.scope == scope || end_scope(d, act) == scope);
+    return std::ranges::any_of(d.frame.passes, [&](const DeclaredPass& pass) {
+        return pass.technique->stage == stage && (pass.scope == scope || end_scope(d, pass) == scope);
     });
 }
 
@@ -101,11 +105,11 @@ std::optional<glm::uvec2> texel_under(const Shape& shape, const Extent& frame, g
     return pixel / k;
 }
 
-ActImages describe_act(const Declaration& d, const DeclaredAct& act) {
-    const Stage stage = act.technique->stage;
+PassImages describe_pass(const Declaration& d, const DeclaredPass& pass) {
+    const Stage stage = pass.technique->stage;
     std::string label(name(stage));
-    if (act.at != stage) label += fmt::format(" at {}", name(act.at));
-    return {stage, act.at, std::move(label), choice_line(d.choices.at(stage)), {}};
+    if (pass.at != stage) label += fmt::format(" at {}", name(pass.at));
+    return {stage, pass.at, std::move(label), choice_line(d.choices.at(stage)), {}};
 }
 
 }  // namespace
@@ -115,11 +119,12 @@ Result<HostImage> DeviceSession::peek(const Request& request, std::size_t step, 
     if (!declared) return declared.error();
     const Plan& plan = declared->plan;
     if (step >= plan.steps.size())
-        return fail_unnamed(Fault::usage, "the plan has {} steps; there is no step {}", plan.steps.size(), step);
+        return fail(Fault::usage, "session.no_step", "the plan has {steps} steps; there is no step {step}", plan.steps.size(),
+                    step);
     const Image handle = declared->graph.find_image(image);
-    if (!handle) return fail_unnamed(Fault::usage, "the frame has no image '{}'", image);
+    if (!handle) return fail(Fault::usage, "frame.unknown_image", "the frame has no image '{image}'", image);
     if (!last_write(plan, handle, step + 1))
-        return fail_unnamed(Fault::usage, "'{}' is not written yet after step {}", image, step);
+        return fail(Fault::usage, "session.not_written_yet", "'{image}' is not written yet after step {step}", image, step);
     return execute(*declared, {.until = step, .peeks = {{step, handle}}}).and_then([&](auto& execution) {
         return std::move(execution.peeked.front());
     });
@@ -129,19 +134,20 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
     // Under a memory budget what the memo may hold depends on the peeks, which depend on the plan: then everything is executed.
     auto declared = prepare(request, memory_budget_ == 0 ? &memo_ : nullptr, Keep::all_images);
     if (!declared) return declared.error();
-    const auto acts_before = before_last_act(*declared, stage);
-    std::vector<std::uint64_t> keys = declared->act_keys;
-    if (acts_before) keys.resize(std::min(keys.size(), *acts_before));
-    const bool is_known = acts_before && found_ && !keys.empty() && found_->keys == keys;
+    const auto passes_before = before_last_pass(*declared, stage);
+    std::vector<std::uint64_t> keys = declared->pass_keys;
+    if (passes_before) keys.resize(std::min(keys.size(), *passes_before));
+    const bool is_known = passes_before && found_ && !keys.empty() && found_->keys == keys;
     if (!is_known) {
         memo_.drop_unfilled();
-        if (!acts_before) return fail_unnamed(Fault::usage, "the frame does not need the stage {}", name(stage));
+        if (!passes_before)
+            return fail(Fault::usage, "stage.not_needed", "the frame does not need the stage {stage}", name(stage));
         // What the memo puts in the place of a stage leaves out what only that stage would have read.
         declared = prepare(request, nullptr, Keep::all_images);
         if (!declared) return declared.error();
     }
     const Declaration& d = *declared;
-    const DeclaredAct* last = &d.frame.acts[*acts_before];
+    const DeclaredPass* last = &d.frame.passes[*passes_before];
     Peeks peeks;
     std::vector<PeekedImage> before, result;
     const auto want = [&](std::vector<PeekedImage>& places, std::string_view image_name, Image image, std::size_t end) {
@@ -152,7 +158,7 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
     for (const FrameImageRow& row : frame_images())
         if (!is_known) want(before, row.name, last->before.*row.member, first_step_after(d.plan, last->scope - 1));
     for (const std::string_view output : info(stage).outputs) {
-        const Image image = images_after(d, *acts_before).*find_frame_image(output)->member;
+        const Image image = images_after(d, *passes_before).*find_frame_image(output)->member;
         const std::size_t end = first_step_after(d.plan, end_scope(d, *last));
         const auto step = image ? last_write(d.plan, image, end) : std::nullopt;
         if (step && is_step_of(d, stage, *step)) want(result, output, image, end);
@@ -170,13 +176,13 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
     return inspected;
 }
 
-Result<Run> DeviceSession::run_with_acts(const Request& request) {
+Result<Run> DeviceSession::run_with_passes(const Request& request) {
     auto declared = prepare(request, nullptr, Keep::all_images);
     if (!declared) return declared.error();
     const Declaration& d = *declared;
     Peeks peeks;
     std::vector<PeekedImage> outputs;
-    std::vector<std::vector<PeekedImage>> of_acts;
+    std::vector<std::vector<PeekedImage>> of_passes;
     for (const auto& [output, image] : d.outputs)
         if (const auto step = last_write(d.plan, image, d.plan.steps.size()))
             outputs.push_back({output, peeks.add(*step, image)});
@@ -184,7 +190,7 @@ Result<Run> DeviceSession::run_with_acts(const Request& request) {
     for (const auto& [output, source] : d.tables)
         if (const auto step = last_write(d.plan, source.second, d.plan.steps.size()))
             tables.push_back({output, peeks.add(*step, source.second)});
-    for (std::size_t act = 0; act < d.frame.acts.size(); ++act) of_acts.push_back(peek_outputs(d, act, peeks));
+    for (std::size_t pass = 0; pass < d.frame.passes.size(); ++pass) of_passes.push_back(peek_outputs(d, pass, peeks));
 
     const auto execution = execute(d, peeks.options());
     if (!execution) return execution.error();
@@ -192,9 +198,9 @@ Result<Run> DeviceSession::run_with_acts(const Request& request) {
     for (const PeekedImage& image : outputs) run.images.emplace(image.name, execution->peeked[image.peek]);
     for (const PeekedImage& table : tables)
         run.tables.emplace(table.name, table_of(*d.tables.at(table.name).first, execution->peeked[table.peek]));
-    for (std::size_t i = 0; i < of_acts.size(); ++i) {
-        run.acts.push_back(describe_act(d, d.frame.acts[i]));
-        for (const PeekedImage& image : of_acts[i]) run.acts.back().images.emplace(image.name, execution->peeked[image.peek]);
+    for (std::size_t i = 0; i < of_passes.size(); ++i) {
+        run.passes.push_back(describe_pass(d, d.frame.passes[i]));
+        for (const PeekedImage& image : of_passes[i]) run.passes.back().images.emplace(image.name, execution->peeked[image.peek]);
     }
     return run;
 }
@@ -204,8 +210,8 @@ Result<std::vector<StepImages>> DeviceSession::step_images(const Request& reques
     if (!declared) return declared.error();
     const Plan& plan = declared->plan;
     std::set<std::uint32_t> scopes;
-    for (const DeclaredAct& act : declared->frame.acts)
-        if (act.technique->stage == stage) scopes.insert(act.scope);
+    for (const DeclaredPass& pass : declared->frame.passes)
+        if (pass.technique->stage == stage) scopes.insert(pass.scope);
     std::vector<StepImages> steps;
     RunOptions options{.kept_images = KeptImages::left};
     std::vector<std::size_t> places;  // of each peek, in steps
@@ -230,8 +236,8 @@ Result<std::vector<StepImages>> DeviceSession::pixel_steps(const Request& reques
     if (!declared) return declared.error();
     const Extent& frame = declared->images.extent;
     if (pixel.x >= frame.width || pixel.y >= frame.height)
-        return fail_unnamed(Fault::usage, "the frame is {} x {}; there is no pixel {}, {}", frame.width, frame.height, pixel.x,
-                            pixel.y);
+        return fail(Fault::usage, "frame.no_pixel", "the frame is {width} x {height}; there is no pixel {x}, {y}", frame.width,
+                    frame.height, pixel.x, pixel.y);
     const Plan& plan = declared->plan;
     RunOptions options{.kept_images = KeptImages::left};
     for (std::size_t i = 0; i < plan.steps.size(); ++i)
@@ -257,7 +263,9 @@ Result<std::vector<Cover>> DeviceSession::draw_cover(const Request& request, std
     if (!run) return run.error();
     const Frame& frame = loaded_->frame;
     const std::size_t count = frame.draws.size() + frame.emitters.size();
-    if (draw >= count) return fail_unnamed(Fault::usage, "the frame has {} draws and emitters; there is no draw {}", count, draw);
+    if (draw >= count)
+        return fail(Fault::usage, "frame.no_draw", "the frame has {draws} draws and emitters; there is no draw {draw}", count,
+                    draw);
     const auto depth = run->images.find("depth_layers");
     if (depth == run->images.end()) return strata::draw_cover(frame, draw, nullptr);
     const ReferenceImage layers = in_double(depth->second);
@@ -296,7 +304,8 @@ std::optional<std::string> DeviceSession::lacking(const Request& request, Stage 
                              .features = &loaded_->features,
                              .facts = &loaded_->facts,
                              .capabilities = device().capabilities};
-    return beyond_device(choices->at(stage), images);
+    const auto beyond = beyond_device(choices->at(stage), images);
+    return beyond ? std::optional(beyond->sentence) : std::nullopt;
 }
 
 Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Against against, const ImageSet* truth) {
@@ -349,7 +358,7 @@ Result<const FragmentLists*> DeviceSession::row_fragments(const Request& request
     const auto run = this->run(for_fragments);
     if (!run) return run.error();
     if (std::ranges::count(run->skipped, Stage::transparency, &SkippedStage::stage) > 0)
-        return fail_unnamed(Fault::usage, "the frame does not need the stage {}", name(Stage::transparency));
+        return fail(Fault::usage, "stage.not_needed", "the frame does not need the stage {stage}", name(Stage::transparency));
     ImageSet before;
     for (const auto& [name, image] : run->images) before.emplace(name, in_double(image));
     const auto depth = before.find("depth_layers");

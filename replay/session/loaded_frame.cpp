@@ -8,16 +8,16 @@ namespace strata {
 Result<std::unique_ptr<LoadedFrame>> load_frame(Frame recorded, const FrameVariant& variant) {
     View& view = recorded.view;
     if (variant.samples != 0 && variant.samples != 1 && variant.samples != 4)
-        return fail_unnamed(Fault::usage, "samples are 1 or 4, not {}", variant.samples);
+        return fail(Fault::usage, "frame.sample_count", "samples are 1 or 4, not {samples}", variant.samples);
     if (variant.samples != 0) view.samples = variant.samples;
     if (variant.extent_divisor == 0 || view.width < variant.extent_divisor || view.height < variant.extent_divisor)
-        return fail_unnamed(Fault::usage, "an extent of {} x {} cannot be divided by {}", view.width, view.height,
-                            variant.extent_divisor);
+        return fail(Fault::usage, "frame.extent_divisor", "an extent of {width} x {height} cannot be divided by {divisor}",
+                    view.width, view.height, variant.extent_divisor);
     view.width /= variant.extent_divisor;
     view.height /= variant.extent_divisor;
     for (const EyeAxis& axis : eye_axes())
         if (!std::isfinite(variant.eye.*axis.member))
-            return fail_unnamed(Fault::usage, "the eye's {} is not a number", axis.name);
+            return fail(Fault::usage, "eye.not_a_number", "the eye's {axis} is not a number", axis.name);
     view = moved(view, variant.eye);
 
     auto loaded = std::make_unique<LoadedFrame>(variant, std::move(recorded));

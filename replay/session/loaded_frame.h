@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "capture_format/frame.h"
 #include "passes/scene/scene_facts.h"
 #include "replay/scene/scene_records.h"
 #include "replay/session/frame_variant.h"

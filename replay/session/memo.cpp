@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <set>
 
+#include "passes/graph/graph.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
+
 namespace strata {
 namespace {
 
@@ -26,11 +30,11 @@ private:
 
 }  // namespace
 
-KeptAct* Memo::find(std::uint64_t key, std::span<const std::string> images) {
+KeptPass* Memo::find(std::uint64_t key, std::span<const std::string> images) {
     const auto found = kept_.find(key);
     if (found == kept_.end() || !found->second.filled) return nullptr;
     for (const std::string& name : images)
-        if (std::ranges::find(found->second.images, name, &KeptAct::KeptImage::name) == found->second.images.end())
+        if (std::ranges::find(found->second.images, name, &KeptPass::KeptImage::name) == found->second.images.end())
             return nullptr;
     found->second.last_used = ++clock_;
     return &found->second;
@@ -50,26 +54,26 @@ void Memo::limit(std::uint64_t budget_bytes) {
     shrink(budget_);
 }
 
-KeptAct* Memo::reserve(std::uint64_t key, std::span<const ImageRecord> images) {
+KeptPass* Memo::reserve(std::uint64_t key, std::span<const ImageRecord> images) {
     if (const auto old = kept_.find(key); old != kept_.end()) drop(old);
-    KeptAct act{.last_used = ++clock_};
+    KeptPass pass{.last_used = ++clock_};
     for (const ImageRecord& image : images) {
-        act.images.push_back({image.name, {next_id_++}, image.shape});
-        act.bytes += executor_->image_bytes(image.shape);
+        pass.images.push_back({image.name, {next_id_++}, image.shape});
+        pass.bytes += executor_->image_bytes(image.shape);
     }
-    if (act.bytes > budget_) return nullptr;
-    shrink(budget_ - act.bytes);
-    if (held_ + act.bytes > budget_) return nullptr;
-    held_ += act.bytes;
-    const KeptAct& reserved = kept_.emplace(key, std::move(act)).first->second;
+    if (pass.bytes > budget_) return nullptr;
+    shrink(budget_ - pass.bytes);
+    if (held_ + pass.bytes > budget_) return nullptr;
+    held_ += pass.bytes;
+    const KeptPass& reserved = kept_.emplace(key, std::move(pass)).first->second;
     for (const auto& image : reserved.images) executor_->create_image(image.id, image.shape);  // drop_unfilled() where that fails
     return &kept_.at(key);
 }
 
 void Memo::commit(std::uint64_t key, std::vector<CounterRecord> counters) {
-    KeptAct& act = kept_.at(key);
-    act.counters = std::move(counters);
-    act.filled = true;
+    KeptPass& pass = kept_.at(key);
+    pass.counters = std::move(counters);
+    pass.filled = true;
 }
 
 void Memo::drop_unfilled() {
@@ -84,16 +88,16 @@ void Memo::clear() {
     while (!kept_.empty()) drop(kept_.begin());
 }
 
-void Memo::drop(std::map<std::uint64_t, KeptAct>::iterator it) {
+void Memo::drop(std::map<std::uint64_t, KeptPass>::iterator it) {
     for (const auto& image : it->second.images) executor_->forget(image.id);
     held_ -= it->second.bytes;
     kept_.erase(it);
 }
 
-std::uint64_t ActKeys::key(const Graph& graph, const DeclaredAct& act, const Settings& settings) {
+std::uint64_t PassKeys::key(const Graph& graph, const DeclaredPass& pass, const Settings& settings) {
     Hash hash(frame_key_);
-    hash.add(act.technique->name);
-    hash.add(name(act.at));
+    hash.add(pass.technique->name);
+    hash.add(name(pass.at));
     for (const std::string& line : settings.lines()) hash.add(line);
     const auto read = [&](const std::map<std::uint32_t, std::uint64_t>& keys, std::uint32_t id) {
         const auto producer = keys.find(id);
@@ -101,7 +105,7 @@ std::uint64_t ActKeys::key(const Graph& graph, const DeclaredAct& act, const Set
     };
     std::set<std::uint32_t> images, buffers;
     for (const Step& step : graph.steps()) {
-        if (step.scope != act.scope) continue;
+        if (step.scope != pass.scope) continue;
         for (const std::string& shader : step.shaders) hash.add(shaders_->replaced(shader));
         if (const auto* draw = std::get_if<DrawWork>(&step.work)) hash.add(shaders_->replaced(scene_vertex_shader(draw->list)));
         for (const Use& use : uses(step)) {
@@ -115,26 +119,26 @@ std::uint64_t ActKeys::key(const Graph& graph, const DeclaredAct& act, const Set
     return hash.value();
 }
 
-std::vector<std::vector<std::string>> images_read_later(const Graph& graph, std::span<const DeclaredAct> acts) {
-    std::map<std::uint32_t, std::size_t> place;  // scope -> act
-    for (std::size_t i = 0; i < acts.size(); ++i) place[acts[i].scope] = i;
-    std::map<std::uint32_t, std::size_t> writer;  // image id -> act
-    std::vector<std::set<std::string>> wanted(acts.size());
+std::vector<std::vector<std::string>> images_read_later(const Graph& graph, std::span<const DeclaredPass> passes) {
+    std::map<std::uint32_t, std::size_t> place;  // scope -> pass
+    for (std::size_t i = 0; i < passes.size(); ++i) place[passes[i].scope] = i;
+    std::map<std::uint32_t, std::size_t> writer;  // image id -> pass
+    std::vector<std::set<std::string>> wanted(passes.size());
     const auto wants = [&](Image image, std::size_t reader) {
         const auto found = writer.find(image.id);
         if (found != writer.end() && found->second != reader) wanted[found->second].insert(graph.record(image).name);
     };
     for (const Step& step : graph.steps()) {
         const auto at = place.find(step.scope);
-        const std::size_t act = at == place.end() ? acts.size() : at->second;
+        const std::size_t pass = at == place.end() ? passes.size() : at->second;
         const std::vector<Use> all = uses(step);
         for (const Use& use : all)
-            if (use.image) wants(use.image, act);
-        if (act == acts.size()) continue;
+            if (use.image) wants(use.image, pass);
+        if (pass == passes.size()) continue;
         for (const Use& use : all)
-            if (use.image && writes(use.access)) writer[use.image.id] = act;
+            if (use.image && writes(use.access)) writer[use.image.id] = pass;
     }
-    for (const Image image : graph.kept_images()) wants(image, acts.size());
+    for (const Image image : graph.kept_images()) wants(image, passes.size());
     std::vector<std::vector<std::string>> names;
     for (const auto& set : wanted) names.emplace_back(set.begin(), set.end());
     return names;

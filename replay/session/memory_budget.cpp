@@ -11,11 +11,13 @@ Result<void> DeviceSession::check_budget(const Plan& plan, const RunOptions& opt
     if (memory_budget_ == 0) return {};
     const MemoryNeed need = need_of(plan, options);
     if (need.total() <= memory_budget_) return {};
-    return fail_unnamed(Fault::device_lacks, "frame {} needs {}; the memory budget is {:.1f} MiB. Give it more, or {}",
-                        loaded_->variant.frame, text(need), double(memory_budget_) / (1 << 20),
-                        loaded_->frame.view.samples > 1
-                            ? "replay with --samples 1"
-                            : "choose a technique or settings that take less (strata graph lists the steps)");
+    return fail(
+        Fault::device_lacks, "session.memory_budget",
+        "frame {frame} needs {needed_mebibytes:.1f} MiB: {shares}; the memory budget is {budget_mebibytes:.1f} MiB. Give it "
+        "more, or {advice}",
+        loaded_->variant.frame, double(need.total()) / (1 << 20), text(need), double(memory_budget_) / (1 << 20),
+        loaded_->frame.view.samples > 1 ? "replay with --samples 1"
+                                        : "choose a technique or settings that take less (strata graph lists the steps)");
 }
 
 Result<void> DeviceSession::make_room(const Plan& plan, const RunOptions& options) {

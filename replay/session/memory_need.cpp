@@ -1,7 +1,9 @@
 #include "replay/session/memory_need.h"
 
 #include <algorithm>
+#include <cstring>
 
+#include "passes/frame_images.h"
 #include "passes/stages.h"
 
 namespace strata {
@@ -59,9 +61,9 @@ MemoryNeed memory_need(const Executor& executor, const Plan& plan, const RunOpti
 
 std::string text(const MemoryNeed& need) {
     std::string text = fmt::format(
-        "{:.1f} MiB: {:.1f} of images, {:.1f} of buffers, {:.1f} of scene, {:.1f} to read back, {:.1f} "
+        "{:.1f} of images, {:.1f} of buffers, {:.1f} of scene, {:.1f} to read back, {:.1f} "
         "of small things",
-        mib(need.total()), mib(need.images), mib(need.buffers), mib(need.scene), mib(need.read_back), mib(need.other));
+        mib(need.images), mib(need.buffers), mib(need.scene), mib(need.read_back), mib(need.other));
     for (std::size_t i = 0; i < need.largest.size(); ++i)
         text += fmt::format("{}'{}' {:.1f}", i == 0 ? "; the largest are " : ", ", need.largest[i].first,
                             mib(need.largest[i].second));

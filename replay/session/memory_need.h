@@ -26,7 +26,7 @@ struct MemoryNeed {
 /// scene: sizes of its buffers.
 MemoryNeed memory_need(const Executor&, const Plan&, const RunOptions&, std::span<const std::uint64_t> scene);
 
-/// "312.4 MiB (250.0 of images, ...); the largest images are 'color' with 133.0 MiB, ..."
+/// "250.0 of images, 31.2 of buffers, ...; the largest are 'color' 133.0, ...", in MiB.
 std::string text(const MemoryNeed&);
 
 /// The steps that use an image or buffer of a plan's own, and the texels or bytes it takes.

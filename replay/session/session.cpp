@@ -4,8 +4,8 @@
 
 #include "capture_format/nearest_name.h"
 #include "replay/gpu/device_memory.h"
+#include "replay/gpu/host_timer.h"
 #include "replay/measure/host_memory.h"
-#include "replay/measure/host_timer.h"
 #include "replay/measure/measured_rounding.h"
 #include "replay/plural.h"
 #include "replay/scene/shrink_textures.h"
@@ -22,7 +22,7 @@ Result<std::size_t> find_step(const Plan& plan, std::string_view wanted) {
         known.push_back(plan.steps[i].step.name);
         if (known.back().find(wanted) != std::string_view::npos) return i;
     }
-    return fail_unnamed(Fault::usage, "no step '{}'{}", wanted, did_you_mean(wanted, known));
+    return fail(Fault::usage, "session.no_step", "no step '{step}'{suggestion}", wanted, did_you_mean(wanted, known));
 }
 
 }  // namespace
@@ -48,14 +48,14 @@ std::size_t DeviceSession::frame_count() const {
 Result<Frame> DeviceSession::frame(std::size_t index) {
     const std::size_t count = frame_count();
     if (index >= count)
-        return fail_unnamed(Fault::usage, "the capture has {}, numbered from 0; there is no frame {}", plural(count, "frame"),
-                            index);
+        return fail(Fault::usage, "capture.no_frame", "there is no frame {frame}: the capture has {frames}, numbered from 0",
+                    index, count);
     if (const auto* capture = std::get_if<Capture>(&source_)) return capture->frame(index);
     return std::get<std::vector<Frame>>(source_)[index];
 }
 
 Result<Run> DeviceSession::run(const Request& request) {
-    if (request.acts == Acts::brought_back) return run_with_acts(request);
+    if (request.passes == Passes::read_back) return run_with_passes(request);
     RunOptions options;
     auto declared = request.once ? prepare(request, nullptr, Keep::outputs) : prepare_with_memo(request, options);
     if (!declared) return declared.error();
@@ -118,9 +118,9 @@ Result<Session::PlannedFrame> DeviceSession::plan(const Request& request) {
 }
 
 Result<void> DeviceSession::check_going() const {
-    if (stop_.stop_requested()) return fail_unnamed(Fault::stopped, "stopped");
+    if (stop_.stop_requested()) return fail(Fault::stopped, "session.stopped", "stopped");
     if (is_lost_)
-        return fail_unnamed(Fault::device_failed, "the device was lost and does nothing any more; open the capture again");
+        return fail(Fault::device_failed, "device.lost", "the device was lost and does nothing any more; open the capture again");
     return {};
 }
 
@@ -159,9 +159,10 @@ Result<void> DeviceSession::check_sizes(const Plan& plan) const {
     for (const MemorySlot& slot : plan.slots) {
         const auto [width, height, depth] = slot.shape.extent;
         if (depth > 1 || std::max(width, height) <= device().max_image_extent) continue;
-        return fail_unnamed(Fault::device_lacks, "'{}' is an image of {} x {} texels and {} makes at most {} each way; {}",
-                            plan.images[slot.images.front()].name, width, height, device().name, device().max_image_extent,
-                            "replay with a smaller extent or settings that take less");
+        return fail(Fault::device_lacks, "device.image_too_large",
+                    "'{image}' is an image of {width} x {height} texels and {device} makes at most {limit} each way; replay with "
+                    "a smaller extent or settings that take less",
+                    plan.images[slot.images.front()].name, width, height, device().name, device().max_image_extent);
     }
     for (const PlannedStep& step : plan.steps)
         for (const PlannedBinding& bound : step.bindings) {
@@ -170,8 +171,9 @@ Result<void> DeviceSession::check_sizes(const Plan& plan) const {
             if (buffer.bytes <= device().max_buffer_bytes) continue;
             const std::string advice = buffer.import ? "it grows with what the frame draws: replay one that draws less"
                                                      : "replay with a smaller extent or settings that take less";
-            return fail_unnamed(Fault::device_lacks, "'{}' takes {} MiB and {} binds at most {} MiB at once; {}", buffer.name,
-                                buffer.bytes >> 20, device().name, device().max_buffer_bytes >> 20, advice);
+            return fail(Fault::device_lacks, "device.buffer_too_large",
+                        "'{buffer}' takes {mebibytes} MiB and {device} binds at most {limit} MiB at once; {advice}", buffer.name,
+                        buffer.bytes >> 20, device().name, device().max_buffer_bytes >> 20, advice);
         }
     return {};
 }
@@ -182,12 +184,12 @@ std::invoke_result_t<Action> DeviceSession::failures_as_errors(Action action) {
         return action();
     } catch (const DeviceLost& failure) {
         is_lost_ = true;
-        return fail_unnamed(Fault::device_failed, "{}; open the capture again", failure.what());
+        return fail(Fault::device_failed, failure.id(), "{reason}; open the capture again", failure.what());
     } catch (const MemoryLacks& failure) {
-        return fail_unnamed(Fault::device_lacks, "{}; replay a smaller frame, with --samples 1 or with another technique",
-                            failure.what());
+        return fail(Fault::device_lacks, failure.id(),
+                    "{reason}; replay a smaller frame, with --samples 1 or with another technique", failure.what());
     } catch (const DeviceFailure& failure) {
-        return fail_unnamed(Fault::device_failed, "{}", failure.what());
+        return fail(Fault::device_failed, failure.id(), "{reason}", failure.what());
     }
 }
 
@@ -296,7 +298,7 @@ Result<std::unique_ptr<Session>> open_session(const DeviceChoice& choice, Device
 Result<std::unique_ptr<Session>> Session::open(const std::filesystem::path& path, const DeviceChoice& choice, Partial partial) {
     auto capture = Capture::open(path, partial, choice.memory_budget);
     if (!capture) return capture.error();
-    if (capture->frame_count() == 0) return fail_unnamed(Fault::bad_input, "{} holds no frame", path.string());
+    if (capture->frame_count() == 0) return fail(Fault::bad_input, "capture.no_frames", "{file} holds no frame", path.string());
     return open_session(choice, *std::move(capture));
 }
 
@@ -310,10 +312,12 @@ std::unique_ptr<Session> open_session_on(Device& device, std::vector<Frame> fram
     return session;
 }
 
-Result<std::vector<ActImages>> Session::act_images(Request request) {
+std::string Session::capture_id() const { return capture() ? capture()->id() : "made in code"; }
+
+Result<std::vector<PassImages>> Session::pass_images(Request request) {
     request.outputs.clear();
-    request.acts = Acts::brought_back;
-    return this->run(request).and_then([&](auto& run) { return std::move(run.acts); });
+    request.passes = Passes::read_back;
+    return this->run(request).and_then([&](auto& run) { return std::move(run.passes); });
 }
 
 }  // namespace strata

@@ -12,31 +12,40 @@
 #include <string>
 #include <vector>
 
-#include "capture_format/reader.h"
+#include "capture_format/frame_features.h"
+#include "capture_format/partial.h"
+#include "capture_format/result.h"
+#include "passes/debug_views.h"
+#include "passes/figure.h"
 #include "passes/graph/plan.h"
 #include "replay/gpu/device.h"
 #include "replay/images/draw_cover.h"
 #include "replay/images/host_image.h"
 #include "replay/measure/timing.h"
-#include "replay/session/frame_plan.h"
+#include "replay/session/choices.h"
+#include "replay/session/counter_record.h"
 #include "replay/session/frame_variant.h"
-#include "replay/session/memo.h"
 #include "replay/session/memory_need.h"
+#include "replay/session/skipped_stage.h"
 
 namespace strata {
 
-/// Whether a run brings back what every act gave (Run::acts). Then every act is executed, whatever the memo holds.
-enum class Acts { left, brought_back };
+class Capture;        // capture_format/reader.h
+class FragmentLists;  // passes/reference/fragments.h
+struct Frame;         // capture_format/frame.h
+
+/// Whether a run brings back what every pass gave (Run::passes). Then every pass is executed, whatever the memo holds.
+enum class Passes { not_read, read_back };
 
 /// What to replay and what to bring back.
 struct Request {
     FrameVariant variant;
     ChoiceChanges choices = {};  ///< against the recorded ones
     std::vector<std::string> outputs = {
-        "display"};          ///< names of frame_images.h, or "stage/technique:view" debug views and tables
-    std::string until;       ///< last step to run: part of its name; empty: all
-    Acts acts = Acts::left;  ///< not with `until`
-    bool once = false;       ///< nothing is kept for later runs that share stages with this one
+        "display"};                    ///< names of frame_images.h, or "stage/technique:view" debug views and tables
+    std::string until;                 ///< last step to run: part of its name; empty: all
+    Passes passes = Passes::not_read;  ///< not with `until`
+    bool once = false;                 ///< nothing is kept for later runs that share stages with this one
     friend bool operator==(const Request&, const Request&) = default;
 };
 
@@ -64,9 +73,9 @@ struct RunTimes {
     HostTimes device;
 };
 
-/// What one act of a stage's technique gave: those of the stage's outputs (StageInfo::outputs) that it wrote, as it left them.
-struct ActImages {
-    Stage stage, at;     ///< whose technique, and where in the frame: combine's second act stands at film
+/// What one pass of a stage's technique gave: those of the stage's outputs (StageInfo::outputs) that it wrote, as it left them.
+struct PassImages {
+    Stage stage, at;     ///< whose technique, and where in the frame: combine's second pass stands at film
     std::string label;   ///< "transparency", or "combine at film"
     std::string choice;  ///< "technique key=value ..."
     std::map<std::string, HostImage> images;
@@ -108,10 +117,10 @@ struct Run {
     std::map<std::string, std::uint64_t> stage_bytes;  ///< images and buffers first used by the stage's technique
     RunMemory memory;
     RunTimes host_ms;
-    std::size_t acts_executed = 0, acts_from_memo = 0;
+    std::size_t passes_executed = 0, passes_from_memo = 0;
     std::size_t pipelines_created = 0;  ///< during this run
     std::vector<std::string> notes;     ///< what had to be reduced to fit the device; shaders that are not those built in
-    std::vector<ActImages> acts;        ///< with Acts::brought_back, in the order of the frame
+    std::vector<PassImages> passes;     ///< with Passes::read_back, in the order of the frame
 };
 
 /// What a step of the plan wrote, read back right after it.
@@ -129,13 +138,13 @@ struct WorstTexel {
     glm::dvec4 got{0}, wanted{0};
 };
 
-/// How a technique fared on a frame against its model (implementation error) and the stage's truth (method error).
+/// How a technique fared on a frame against its model (implementation error) and the stage's truth (technique error).
 struct Accuracy {
-    std::vector<Figure> method;              ///< from the stage's judge
+    std::vector<Metric> technique_errors;    ///< from the stage's judge
     std::optional<double> flip;              ///< mean of FLIP against the truth, of a stage that makes radiance
-    std::vector<Figure> touched;             ///< the same over the samples that the truth changes, of a stage that makes radiance
+    std::vector<Metric> touched;             ///< the same over the samples that the truth changes, of a stage that makes radiance
     double touched_share = 1;                ///< of all samples
-    double left_out_share = 0;               ///< of samples, from errors against the truth: rounding decides what they show
+    double undecided_share = 0;              ///< of samples, from errors against the truth: rounding decides what they show
     double model_rmse = 0, model_worst = 0;  ///< relative, see Tolerance
     std::size_t compared = 0, undecided = 0, trivial = 0;  ///< texels
     WorstTexel worst;
@@ -164,14 +173,15 @@ public:
     virtual const DeviceInfo& device() const = 0;
     /// The capture it was opened on; null for frames made in code.
     virtual const Capture* capture() const = 0;
-    std::string capture_id() const { return capture() ? capture()->id() : "made in code"; }
+    std::string capture_id() const;
     virtual std::size_t frame_count() const = 0;
     virtual Result<Frame> frame(std::size_t) = 0;
 
     /// Runs once. Stage outputs that are still valid come from the memo.
     virtual Result<Run> run(const Request&) = 0;
-    /// Runs a request in which a stage's outputs are these images instead of what its own act gives; everything else is executed.
-    /// Fails (usage) where later stages read more of that act: buffers, or images that are missing here or not of its shape.
+    /// Runs a request in which a stage's outputs are these images instead of what its own pass gives; everything else is
+    /// executed. Fails (usage) where later stages read more of that pass: buffers, or images that are missing here or not of its
+    /// shape.
     virtual Result<Run> run_from(const Request&, Stage, const ImageSet& outputs) = 0;
     /// Runs the requests in turn, `repeats` times each, without the memo: medians with their spread. A turn before them warms up;
     /// it counts where it made no pipeline, as when every one of several requests was run before. Stopped (stop_when), it gives
@@ -186,9 +196,9 @@ public:
     virtual Result<PlannedFrame> plan(const Request&) = 0;
     /// Any image after any step: step by index in the plan, image by its name in the graph.
     virtual Result<HostImage> peek(const Request&, std::size_t step, const std::string& image) = 0;
-    /// What every stage gave, act by act in the order of the frame. Everything is executed; Request::outputs do not matter.
-    Result<std::vector<ActImages>> act_images(Request);
-    /// What every step of a stage's acts wrote, in order, by the plan that keeps every image and so leaves nothing out.
+    /// What every stage gave, pass by pass in the order of the frame. Everything is executed; Request::outputs do not matter.
+    Result<std::vector<PassImages>> pass_images(Request);
+    /// What every step of a stage's passes wrote, in order, by the plan that keeps every image and so leaves nothing out.
     virtual Result<std::vector<StepImages>> step_images(const Request&, Stage) = 0;
     /// What a pixel is after every step that writes it, by the request's plan: images of one texel with all their layers and
     /// slices. Of images at lower resolution (tiles) the texel that covers the pixel; what does not lie on the screen, and what

@@ -2,6 +2,7 @@
 // a small frame costs; they run one after the other, and what a run says of the device's memory is of all of them.
 #pragma once
 
+#include "capture_format/frame/frame.h"
 #include "replay/session/session.h"
 
 namespace strata {

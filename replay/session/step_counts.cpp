@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 
+#include "passes/technique.h"
 #include "replay/session/describe_run.h"
 #include "replay/session/device_session.h"
 

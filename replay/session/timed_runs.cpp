@@ -3,16 +3,18 @@
 #include <functional>
 
 #include "passes/scene/object_order.h"
-#include "replay/measure/host_timer.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
+#include "replay/gpu/host_timer.h"
 #include "replay/session/describe_run.h"
 #include "replay/session/device_session.h"
 
 namespace strata {
 namespace {
 
-/// The steps of an act by name, in order.
-using ActCosts = std::vector<std::pair<std::string, StepCost>>;
-/// Tells equal scopes from others: an act by its key (ActKeys), any other scope by the request.
+/// The steps of a pass by name, in order.
+using PassCosts = std::vector<std::pair<std::string, StepCost>>;
+/// Tells equal scopes from others: a pass by its key (PassKeys), any other scope by the request.
 struct ExecutedScope {
     Scope scope;
     std::optional<std::uint64_t> key = {};
@@ -20,13 +22,14 @@ struct ExecutedScope {
     friend auto operator<=>(const ExecutedScope&, const ExecutedScope&) = default;
 };
 /// What one repeat has executed.
-using ExecutedActs = std::map<ExecutedScope, ActCosts>;
+using ExecutedPasses = std::map<ExecutedScope, PassCosts>;
 
-/// The scopes of a request: equal acts of two requests are the same one.
+/// The scopes of a request: equal passes of two requests are the same one.
 class RequestScopes {
 public:
     RequestScopes(const Declaration& d, std::size_t request) : request_(request) {
-        for (std::size_t i = 0; i < d.act_keys.size(); ++i) keys_.emplace(d.graph.scopes()[d.frame.acts[i].scope], d.act_keys[i]);
+        for (std::size_t i = 0; i < d.pass_keys.size(); ++i)
+            keys_.emplace(d.graph.scopes()[d.frame.passes[i].scope], d.pass_keys[i]);
     }
     ExecutedScope operator()(const Scope& scope) const {
         const auto key = keys_.find(scope);
@@ -38,28 +41,28 @@ private:
     std::size_t request_;
 };
 
-void add_executed(const Declaration& d, const Execution& execution, const RequestScopes& of, ExecutedActs& acts) {
-    ExecutedActs now;
+void add_executed(const Declaration& d, const Execution& execution, const RequestScopes& of, ExecutedPasses& passes) {
+    ExecutedPasses now;
     for (std::size_t i = 0; i < d.plan.steps.size(); ++i) {
         const Step& step = d.plan.steps[i].step;
         now[of(d.plan.scopes[step.scope])].emplace_back(step.name, execution.step_costs[i]);
     }
-    for (auto& [scope, costs] : now) acts.insert_or_assign(scope, std::move(costs));
+    for (auto& [scope, costs] : now) passes.insert_or_assign(scope, std::move(costs));
 }
 
 /// The costs of a whole frame's steps from what the repeat executed; nothing when one of them is missing.
 std::optional<std::vector<StepCost>> costs_of(const std::vector<StepRecord>& steps, const RequestScopes& of,
-                                              const ExecutedActs& acts) {
+                                              const ExecutedPasses& passes) {
     std::map<ExecutedScope, std::size_t> next;
     std::vector<StepCost> costs;
     for (const StepRecord& step : steps) {
         const ExecutedScope scope = of(step.scope);
-        const auto act = acts.find(scope);
-        if (act == acts.end()) return {};
+        const auto pass = passes.find(scope);
+        if (pass == passes.end()) return {};
         std::size_t& at = next[scope];
-        while (at < act->second.size() && act->second[at].first != step.name) ++at;
-        if (at == act->second.size()) return {};
-        costs.push_back(act->second[at++].second);
+        while (at < pass->second.size() && pass->second[at].first != step.name) ++at;
+        if (at == pass->second.size()) return {};
+        costs.push_back(pass->second[at++].second);
     }
     return costs;
 }
@@ -107,12 +110,12 @@ Result<void> DeviceSession::time_sorts(const Request& request, const Run& run, s
     return {};
 }
 
-Result<DeviceSession::Turn> DeviceSession::time_in_turn(std::span<const Request> requests, std::vector<Run>& runs,
-                                                        const Progress& progress) {
+Result<DeviceSession::RepeatTimes> DeviceSession::time_one_repeat(std::span<const Request> requests, std::vector<Run>& runs,
+                                                                  const Progress& progress) {
     const bool is_first = runs.empty();
     memo_.clear();
-    ExecutedActs acts;
-    Turn times(requests.size());
+    ExecutedPasses passes;
+    RepeatTimes times(requests.size());
     for (std::size_t i = 0; i < requests.size(); ++i) {
         if (progress) progress("", double(i) / double(requests.size()));
         if (is_first) {
@@ -128,8 +131,8 @@ Result<DeviceSession::Turn> DeviceSession::time_in_turn(std::span<const Request>
             if (!execution) return execution.error();
             remember(*declared, *execution);
             const RequestScopes of(*declared, i);
-            add_executed(*declared, *execution, of, acts);
-            costs = costs_of(runs[i].steps, of, acts);
+            add_executed(*declared, *execution, of, passes);
+            costs = costs_of(runs[i].steps, of, passes);
             if (is_first) add_results(runs[i], finished(*declared, *execution));
             else runs[i].counters = run_counters(*declared, *execution);
         }
@@ -152,7 +155,7 @@ Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, 
     drop_large_fragments(memo_.budget());
     std::vector<std::vector<std::vector<StepCost>>> steps(requests.size());
     std::vector<SortTimes> sorts(requests.size());
-    const auto add = [&](Turn turn) {
+    const auto add = [&](RepeatTimes turn) {
         for (std::size_t i = 0; i < turn.size(); ++i) {
             steps[i].push_back(std::move(turn[i].steps));
             for (const auto& [stage, ms] : turn[i].sorts) sorts[i][stage].push_back(ms);
@@ -161,7 +164,7 @@ Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, 
     const std::size_t pipelines_before = executor_->pipelines_created();
     for (std::size_t place = 0; steps.front().size() < repeats; ++place) {
         const std::string what = place == 0 ? "warming up" : fmt::format("timing, {} of {}", steps.front().size() + 1, repeats);
-        auto turn = time_in_turn(requests, runs, [&](std::string_view, double done) {
+        auto turn = time_one_repeat(requests, runs, [&](std::string_view, double done) {
             if (progress) progress(what, (double(place) + done) / double(repeats + 1));
         });
         if (!turn && turn.error().fault == Fault::stopped && !steps.front().empty()) break;

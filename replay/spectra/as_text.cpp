@@ -3,9 +3,10 @@
 
 #include <fmt/ranges.h>
 
+#include "passes/technique.h"
 #include "replay/plural.h"
-#include "replay/report/table.h"
 #include "replay/spectra/spectra.h"
+#include "replay/tables/table.h"
 
 namespace strata {
 namespace {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <map>
 
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/isa/isa_report.h"
 #include "replay/spectra/spectra.h"
 
@@ -126,7 +128,7 @@ Result<void> add_modes(const CostQuestion& question, std::vector<PipelineRequest
 }  // namespace
 
 Result<ModeCosts> compiled_costs(const CostQuestion& question) {
-    if (!question.compile) return fail_unnamed(Fault::usage, "--cost isa needs a GPU to compile for: add --gpu-model");
+    if (!question.compile) return fail(Fault::usage, "spectra.no_gpu", "--cost isa needs a GPU to compile for: add --gpu-model");
     std::map<std::uint32_t, lighting::CompiledMode> modes = question.compiled;
     std::vector<std::uint32_t> asked = question.modes;
     std::erase_if(asked, [&](std::uint32_t mode) { return modes.contains(mode); });
@@ -141,7 +143,8 @@ Result<ModeCosts> compiled_costs(const CostQuestion& question) {
     const auto taps = tap_costs(question);
     if (!taps) return taps.error();
     if (!modes.contains(every_light_feature))
-        return fail_unnamed(Fault::device_lacks, "{} gave no statistics of the full mode", question.gpu->name);
+        return fail(Fault::device_lacks, "spectra.no_statistics", "{gpu} gave no statistics of the full mode",
+                    question.gpu->name);
     const auto waves = [modes](std::uint32_t features) {
         // Of a mode that was not compiled: what the smallest compiled superset leaves.
         const auto known = modes.find(features);

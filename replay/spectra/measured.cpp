@@ -7,6 +7,8 @@
 #include <array>
 #include <set>
 
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/spectra/spectra.h"
 
 namespace strata {
@@ -34,7 +36,7 @@ std::uint64_t served_tiles(const FrameSpectra& frame, std::uint32_t mode) {
     return served;
 }
 
-/// Median of what the mode's run took less than the full one's, turn by turn; noise that says more is no saving.
+/// Median of what the mode's run took less than the full one's, repeat by repeat; noise that says more is no saving.
 double saved_ms(const std::vector<double>& full, const std::vector<double>& mode) {
     std::vector<double> differences;
     for (std::size_t i = 0; i < full.size(); ++i) differences.push_back(full[i] - mode[i]);

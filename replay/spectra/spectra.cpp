@@ -4,6 +4,7 @@
 #include <cassert>
 #include <set>
 
+#include "passes/technique.h"
 #include "replay/session/ability.h"
 
 namespace strata {

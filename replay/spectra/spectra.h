@@ -11,12 +11,12 @@
 
 #include "passes/lighting/mode_costs.h"
 #include "passes/lighting/mode_search.h"
-#include "passes/technique.h"
 #include "replay/isa/compiled_pipeline.h"
 #include "replay/isa/gpu_models.h"
 #include "replay/isa/pipeline_request.h"
 #include "replay/report/report.h"
 #include "replay/session/session.h"
+#include "replay/tables/sheet.h"
 
 namespace strata {
 
@@ -107,6 +107,7 @@ struct SpectraReport {
     lighting::ModeSet found = {};
     std::vector<lighting::SpectrumRow> rows = {};               ///< of all frames, with the modes that were found
     double full = 0, as_replayed = 0, by_modes = 0, ideal = 0;  ///< predicted costs of all frames, by the wish's aim
+    std::string date = {};                                      ///< utc_date(); the caller's
 };
 /// Waves per SIMD, the mean over the tiles as the modes that were found shade them; nothing where costs know no waves.
 std::optional<double> mean_waves(const SpectraReport&);
@@ -118,5 +119,11 @@ Result<SpectraReport> find_modes(const CostSource&, CostQuestion, const SpectraW
 
 std::string as_text(const SpectraReport&);
 std::string as_json(const SpectraReport&);
+/// A row for each mode that was found.
+Sheet sheet_of(const SpectraReport&);
+/// The modes and the spectra as one table.
+std::string as_csv(const SpectraReport&);
+/// The text, then the modes as a table.
+Page page_of(const SpectraReport&);
 
 }  // namespace strata

@@ -7,11 +7,10 @@
 #include <gmock/gmock.h>
 
 #include "tests/1_capture/temporary_file.h"
+#include "tests/support/errors.h"
 
 namespace strata {
 namespace {
-
-using testing::HasSubstr;
 
 /// Writes what the collector holds as one more section.
 void write_pending(ContainerWriter& writer, BlobCollector& blobs) {
@@ -41,16 +40,16 @@ struct TwoSections {
 };
 
 /// A file whose only section is the given blobs payload; the error of opening it and finding the blob.
-std::string sentence_for(const PackedBlobs& blobs, const BlobName& blob) {
+Result<void> found_in(const PackedBlobs& blobs, const BlobName& blob) {
     const TemporaryFile file;
     auto writer = ContainerWriter::create(file.path());
     EXPECT_TRUE(writer->add({SectionType::blobs, blobs.version, blobs.stored, blobs.raw_bytes}) && writer->finish());
     const auto container = Container::open(file.path());
     MemoryBudget budget;
     auto store = BlobStore::open(*container, budget);
-    if (!store) return store.error().sentence;
+    if (!store) return store.error();
     const auto found = store->find(blob);
-    return found ? "" : found.error().sentence;
+    return found ? Result<void>() : found.error();
 }
 
 TEST(BlobStore, EqualBytesAreStoredOnce) {
@@ -187,9 +186,9 @@ TEST(BlobStore, WhatANewerProgramWroteIsRefusedWithWhatToDo) {
     PackedBlobs packed = blobs.pack()->front();
     constexpr std::size_t filter = 8 + 32;  // after the count and the entry's hash and sizes
     packed.stored[filter] = std::byte{9};
-    EXPECT_THAT(sentence_for(packed, blob), HasSubstr("blob 0 is rearranged in a way that this program does not know"));
+    EXPECT_THAT(found_in(packed, blob), FailsWith("capture.blob.filter", Field("blob", 0)));
     packed.version = 3;
-    EXPECT_THAT(sentence_for(packed, blob), HasSubstr("has version 3; this program reads 1 to 2: open it with a newer strata"));
+    EXPECT_THAT(found_in(packed, blob), FailsWith("capture.blobs.version", Field("version", 3), Field("newest", 2)));
 }
 
 TEST(BlobStore, ARearrangedBlobOfAWrongSizeIsRefused) {
@@ -198,10 +197,10 @@ TEST(BlobStore, ARearrangedBlobOfAWrongSizeIsRefused) {
     PackedBlobs packed = blobs.pack()->front();
     const std::uint64_t claimed = 39996;
     std::memcpy(packed.stored.data() + 24, &claimed, 8);
-    EXPECT_THAT(sentence_for(packed, {blob.hash, claimed}), HasSubstr("blob 0 is rearranged"));
+    EXPECT_THAT(found_in(packed, {blob.hash, claimed}), FailsWith("capture.blob.filter", Field("blob", 0)));
     const std::uint64_t large = largest_blobs_section + 1;
     std::memcpy(packed.stored.data() + 24, &large, 8);
-    EXPECT_THAT(sentence_for(packed, {blob.hash, large}), HasSubstr("does not hold the bytes its index lists"));
+    EXPECT_THAT(found_in(packed, {blob.hash, large}), FailsWith("capture.blobs.index", Field("section", 0)));
 }
 
 /// Nothing undoes a filter that is none, so nothing else would compare the two sizes.
@@ -213,14 +212,15 @@ TEST(BlobStore, ABlobThatIsNotRearrangedHasOneSize) {
     std::memcpy(packed.stored.data() + 24, &claimed, 8);
     std::memcpy(packed.stored.data() + 32, &filtered, 8);
     std::memset(packed.stored.data() + 40, 0, 8);  // the filter
-    EXPECT_THAT(sentence_for(packed, {blob.hash, claimed}), HasSubstr("does not hold the bytes its index lists"));
+    EXPECT_THAT(found_in(packed, {blob.hash, claimed}), FailsWith("capture.blobs.index", Field("section", 0)));
 }
 
 TEST(BlobStore, AnUnknownHashIsAnErrorThatNamesIt) {
     TwoSections written;
     MemoryBudget budget;
     auto store = BlobStore::open(*written.container, budget);
-    EXPECT_THAT(store->find({{1, 2}, 4}).error().sentence, HasSubstr("lacks blob 00000000000000020000000000000001"));
+    EXPECT_THAT(store->find({{1, 2}, 4}),
+                FailsWith("capture.blob.missing", Field("hash", "00000000000000020000000000000001"), Field("bytes", 4)));
     EXPECT_FALSE(store->find({written.first.hash, 4})) << "the right hash with a wrong size is another blob";
 }
 
@@ -230,7 +230,7 @@ TEST(BlobStore, ABlobUnderAWrongHashIsRefused) {
     PackedBlobs packed = blobs.pack()->front();
     blob.hash.low ^= 1;
     std::memcpy(packed.stored.data() + 8, &blob.hash.low, 8);
-    EXPECT_THAT(sentence_for(packed, blob), HasSubstr("blob 0 is not what its hash says"));
+    EXPECT_THAT(found_in(packed, blob), FailsWith("capture.blob.hash", Field("blob", 0), Field("section", 0)));
 }
 
 TEST(BlobStore, SizesAreBoundedBeforeAnythingIsAllocated) {
@@ -238,12 +238,12 @@ TEST(BlobStore, SizesAreBoundedBeforeAnythingIsAllocated) {
     const BlobName blob = blobs.put(bytes_of("small"));
     PackedBlobs packed = blobs.pack()->front();
     packed.raw_bytes = ~std::uint64_t{0};
-    EXPECT_THAT(sentence_for(packed, blob), HasSubstr("have up to 1073741824"));
+    EXPECT_THAT(found_in(packed, blob), FailsWith("capture.blobs.too_large", Field("most", 1073741824)));
 
     const std::uint64_t claimed = std::uint64_t{1} << 29;
     packed.raw_bytes = claimed;
     std::memcpy(packed.stored.data() + 24, &claimed, 8);
-    EXPECT_THAT(sentence_for(packed, {blob.hash, claimed}), HasSubstr("is not a zstd frame of 536870912 bytes"));
+    EXPECT_THAT(found_in(packed, {blob.hash, claimed}), FailsWith("capture.section.zstd_size", Field("bytes", 536870912)));
 }
 
 TEST(BlobStore, AnIndexThatLeavesItsSectionIsRefused) {
@@ -252,10 +252,10 @@ TEST(BlobStore, AnIndexThatLeavesItsSectionIsRefused) {
     PackedBlobs packed = blobs.pack()->front();
     for (const std::uint64_t count : {std::uint64_t{1000}, std::uint64_t{1} << 63, ~std::uint64_t{0}}) {
         std::memcpy(packed.stored.data(), &count, 8);
-        EXPECT_THAT(sentence_for(packed, blob), HasSubstr("too short for its index"));
+        EXPECT_THAT(found_in(packed, blob), FailsWith("capture.blobs.index_cut", Field("blobs", count)));
     }
     packed.stored.resize(3);
-    EXPECT_THAT(sentence_for(packed, blob), HasSubstr("too short for its index"));
+    EXPECT_THAT(found_in(packed, blob), FailsWith("capture.blobs.index_cut", Field("blobs", 0)));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "capture_format/recorder.h"
 #include "tests/1_capture/sample_frames.h"
 #include "tests/1_capture/temporary_file.h"
+#include "tests/support/errors.h"
 
 namespace strata {
 namespace {
@@ -128,7 +129,7 @@ TEST(ExpectationWriter, ACaptureThatWasReplacedMeanwhileStaysTheNewOne) {
     std::filesystem::rename(other.path(), file.path());
     const auto finished = writer->finish();
     ASSERT_FALSE(finished);
-    EXPECT_THAT(finished.error().sentence, testing::HasSubstr("was replaced by another program"));
+    EXPECT_THAT(finished, FailsWith("expect.capture_replaced", Field("file", file.path().string())));
     EXPECT_TRUE(Capture::open(file.path())->expectations().empty());
 }
 

@@ -1,8 +1,8 @@
 // What a frame contains decides which stages it needs; every bit says why it is set.
-#include "capture_format/frame_features.h"
 
 #include <gmock/gmock.h>
 
+#include "capture_format/frame_features.h"
 #include "tests/1_capture/sample_frames.h"
 
 namespace strata {

@@ -9,10 +9,11 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/errors.h"
+
 namespace strata {
 namespace {
 
-using testing::HasSubstr;
 using Bytes = std::vector<std::byte>;
 using Words = std::vector<std::uint64_t>;
 
@@ -121,8 +122,8 @@ TEST(FrameDelta, RoundingOfTheApplicationChangesNothing) {
     }
 }
 
-/// The sentence of unpacking the third of three equal frames after `change` was made to its payload.
-std::string sentence_for(const std::function<void(Bytes&, std::uint64_t&)>& change) {
+/// What comes of unpacking the third of three equal frames after `change` was made to its payload.
+Result<void> unpacked_after(const std::function<void(Bytes&, std::uint64_t&)>& change) {
     const Words words(10, 7);
     FrameChain writing, reading;
     std::uint64_t bytes = raw(words).size();
@@ -131,23 +132,26 @@ std::string sentence_for(const std::function<void(Bytes&, std::uint64_t&)>& chan
     change(payload, bytes);
     const auto unpacked = reading.unpack(payload, bytes);
     EXPECT_TRUE(unpacked || reading.newest().empty()) << "nothing is built on what failed";
-    return unpacked ? "" : unpacked.error().sentence;
+    return unpacked ? Result<void>() : unpacked.error();
 }
 
 TEST(FrameDelta, LiesAreRefusedBeforeAnythingIsAllocated) {
     const auto put = [](std::size_t at, std::uint32_t value) {
         return [=](Bytes& payload, std::uint64_t&) { std::memcpy(payload.data() + at, &value, sizeof(value)); };
     };
-    EXPECT_EQ(sentence_for([](Bytes&, std::uint64_t&) {}), "");
-    EXPECT_THAT(sentence_for([](Bytes& payload, std::uint64_t&) { payload.resize(23); }), HasSubstr("too short"));
-    EXPECT_THAT(sentence_for(put(0, 64)), HasSubstr("builds on 64 frames before it; 63 are the most"));
-    EXPECT_THAT(sentence_for(put(0, 1)), HasSubstr("builds on 1 frames and comes after 2"));
-    EXPECT_THAT(sentence_for(put(4, 1u << 30)), HasSubstr("too short for its 1073741824 runs"));
-    EXPECT_THAT(sentence_for(put(16, 1)), HasSubstr("not the frame that was recorded"));
-    EXPECT_THAT(sentence_for(put(24, 5)), HasSubstr("continues words 5 and 10 more of a frame of 10"));
-    EXPECT_THAT(sentence_for(put(28, 4)), HasSubstr("make 4 words of 10"));
-    EXPECT_THAT(sentence_for([](Bytes&, std::uint64_t& bytes) { bytes = 1ull << 40; }), HasSubstr("claims 1099511627776 bytes"));
-    EXPECT_THAT(sentence_for([](Bytes&, std::uint64_t& bytes) { bytes += 8; }), HasSubstr("no zstd frame of 88 bytes"));
+    EXPECT_TRUE(unpacked_after([](Bytes&, std::uint64_t&) {}));
+    EXPECT_THAT(unpacked_after([](Bytes& payload, std::uint64_t&) { payload.resize(23); }), FailsWith("capture.frame.too_short"));
+    EXPECT_THAT(unpacked_after(put(0, 64)), FailsWith("capture.frame.too_many_before", Field("reach", 64), Field("most", 63)));
+    EXPECT_THAT(unpacked_after(put(0, 1)), FailsWith("capture.frame.order", Field("reach", 1), Field("frames", 2)));
+    EXPECT_THAT(unpacked_after(put(4, 1u << 30)), FailsWith("capture.frame.runs_cut", Field("runs", 1073741824)));
+    EXPECT_THAT(unpacked_after(put(16, 1)), FailsWith("capture.frame.hash"));
+    EXPECT_THAT(unpacked_after(put(24, 5)),
+                FailsWith("capture.frame.run_range", Field("from", 5), Field("words", 10), Field("frame_words", 10)));
+    EXPECT_THAT(unpacked_after(put(28, 4)), FailsWith("capture.frame.run_sum", Field("words", 4), Field("frame_words", 10)));
+    EXPECT_THAT(unpacked_after([](Bytes&, std::uint64_t& bytes) { bytes = 1ull << 40; }),
+                FailsWith("capture.frame.claimed_size", Field("bytes", 1099511627776)));
+    EXPECT_THAT(unpacked_after([](Bytes&, std::uint64_t& bytes) { bytes += 8; }),
+                FailsWith("capture.section.zstd_size", Field("bytes", 88)));
 }
 
 }  // namespace

@@ -13,11 +13,11 @@
 #include "capture_format/recorder.h"
 #include "tests/1_capture/sample_frames.h"
 #include "tests/1_capture/temporary_file.h"
+#include "tests/support/errors.h"
 
 namespace strata {
 namespace {
 
-using testing::HasSubstr;
 using Bytes = std::vector<std::byte>;
 
 Bytes small_capture() {
@@ -132,7 +132,7 @@ TEST(HostileInput, AFrameThatClaimsMoreThanItMayIsRefusedBeforeAnythingIsCopied)
     ASSERT_TRUE(writer->add({SectionType::frame, 1, section, section.size()}) && writer->finish());
     const auto frame = Capture::open(file.path())->frame(0);
     ASSERT_FALSE(frame);
-    EXPECT_THAT(frame.error().sentence, HasSubstr("its resources take more than 4294967296 bytes"));
+    EXPECT_THAT(frame, FailsWith("capture.frame.resources_too_large", Field("most", 4294967296)));
 }
 
 TEST(HostileInput, AFrameSectionThatIsNoFlatbufferIsNamed) {
@@ -141,14 +141,15 @@ TEST(HostileInput, AFrameSectionThatIsNoFlatbufferIsNamed) {
     ASSERT_TRUE(writer->add({SectionType::frame, 1, bytes_of("no flatbuffer at all"), 20}) && writer->finish());
     const auto frame = Capture::open(file.path())->frame(0);
     ASSERT_FALSE(frame);
-    EXPECT_THAT(frame.error().sentence, HasSubstr("section 0 (frame) at offset 16: it is not a frame"));
+    EXPECT_THAT(frame, FailsWith("capture.frame.not_a_frame", Field("section", 0), Field("kind", "frame"), Field("offset", 16)));
 }
 
 TEST(HostileInput, AFrameOfANewerVersionIsRefusedWhenTheFileIsOpened) {
     const TemporaryFile file;
     auto writer = ContainerWriter::create(file.path());
     ASSERT_TRUE(writer->add({SectionType::frame, format_version + 1, bytes_of("anything"), 8}) && writer->finish());
-    EXPECT_THAT(Capture::open(file.path()).error().sentence, HasSubstr("open it with a newer strata"));
+    EXPECT_THAT(Capture::open(file.path()),
+                FailsWith("capture.frame.version", Field("version", format_version + 1), Field("newest", format_version)));
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "capture_format/import/gltf_animation.h"
+#include "tests/support/errors.h"
 #include "tests/support/gltf_text.h"
 
 namespace strata {
@@ -107,11 +109,12 @@ TEST(GltfAnimation, IsChosenByNameOrIndexAndTheFirstOtherwise) {
         EXPECT_EQ(glm::dvec3(frame_of(scene, 0).draws[0].to_world[3]), glm::dvec3(0, 3, 0)) << wanted;
         EXPECT_THAT(scene.warnings(), testing::Not(Contains(HasSubstr("animations"))));
     }
-    EXPECT_THAT(opened(sliding()).warnings(), Contains(HasSubstr("the first of 2 animations is used, 'slide'")));
+    EXPECT_THAT(opened(sliding()).warnings(), Contains(HasSubstr("2 animations")));
     const auto unknown = import_text(sliding(), {.animation = "fly"});
     ASSERT_FALSE(unknown);
     EXPECT_EQ(unknown.error().fault, Fault::usage);
-    EXPECT_THAT(unknown.error().sentence, HasSubstr("no animation 'fly'; the glTF has 2: 0 'slide' 1 'jump'"));
+    EXPECT_THAT(unknown, FailsWith("import.gltf.animation_missing", Field("animation", "fly"), Field("animations", 2),
+                                   Field("names", ": 0 'slide' 1 'jump'")));
 }
 
 /// A triangle whose second vertex moves by 2 along z with target 0, by 1 along y with target 1.
@@ -165,23 +168,31 @@ TEST(GltfAnimation, BrokenKeysAreRefused) {
         std::string text = sliding();
         return refusal(text.replace(text.find(old), old.size(), fresh));
     };
-    EXPECT_THAT(broken(R"("input":1,"output":2)", R"("input":1,"output":0)"), HasSubstr("'slide': 2 keys have 9 numbers"));
-    EXPECT_THAT(broken(R"("input":1,"output":2)", R"("input":9,"output":2)"), HasSubstr("accessor 9 does not exist"));
-    EXPECT_THAT(broken(R"("output":2)", R"("output":2,"interpolation":"BOUNCE")"), HasSubstr("no interpolation 'BOUNCE'"));
-    EXPECT_THAT(broken(R"("node":0)", R"("node":7)"), HasSubstr("moves node 7"));
-    EXPECT_THAT(broken(R"("sampler":0)", R"("sampler":3)"), HasSubstr("sampler 3"));
-    EXPECT_THAT(broken(R"("count":2)", R"("count":2000000000)"), HasSubstr("leave buffer view"));
+    EXPECT_THAT(broken(R"("input":1,"output":2)", R"("input":1,"output":0)"),
+                FailsWith("import.gltf.key_count", Field("animation", "slide"), Field("keys", 2), Field("numbers", 9)));
+    EXPECT_THAT(broken(R"("input":1,"output":2)", R"("input":9,"output":2)"),
+                FailsWith("import.gltf.index_range", Field("list", "accessor"), Field("index", 9)));
+    EXPECT_THAT(broken(R"("output":2)", R"("output":2,"interpolation":"BOUNCE")"),
+                FailsWith("import.gltf.interpolation", Field("interpolation", "BOUNCE")));
+    EXPECT_THAT(broken(R"("node":0)", R"("node":7)"),
+                FailsWith("import.gltf.index_range", Field("list", "node"), Field("index", 7)));
+    EXPECT_THAT(broken(R"("sampler":0)", R"("sampler":3)"),
+                FailsWith("import.gltf.index_range", Field("list", "sampler"), Field("index", 3)));
+    EXPECT_THAT(broken(R"("count":2)", R"("count":2000000000)"),
+                FailsWith("import.gltf.accessor_range", Field("elements", 2000000000)));
 }
 
 TEST(GltfAnimation, KeyframeTimesAreFloats) {
     std::string text = sliding();
     const std::string times = R"("componentType":5126,"type":"SCALAR")";
     EXPECT_THAT(refusal(text.replace(text.find(times), times.size(), R"("componentType":5125,"type":"SCALAR")")),
-                HasSubstr("'slide': its keyframe times are accessor 1 of component type 5125; they must be floats (5126)"));
+                FailsWith("import.gltf.not_floats", Field("animation", "slide"), Field("numbers", "keyframe times"),
+                          Field("accessor", 1), Field("component_type", 5125)));
     text = sliding();
     const std::size_t values = text.find(R"("componentType":5126,"type":"VEC3","count":2)");
-    EXPECT_THAT(refusal(text.replace(values, 20, R"("componentType":5122)")),
-                HasSubstr("its values are accessor 2 of component type 5122"));
+    EXPECT_THAT(
+        refusal(text.replace(values, 20, R"("componentType":5122)")),
+        FailsWith("import.gltf.not_floats", Field("numbers", "values"), Field("accessor", 2), Field("component_type", 5122)));
 }
 
 TEST(GltfAnimation, ThereAreMoreThanZeroFramesPerSecond) {

@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/import/gltf.h"
+#include "tests/support/errors.h"
 #include "tests/support/gltf_text.h"
 
 namespace strata {
@@ -16,7 +19,7 @@ using testing::HasSubstr;
 TEST(HostileGltf, RequiredExtensionsMustBeSupportedOthersAreIgnored) {
     const Gltf gltf = Gltf().with_triangle();
     EXPECT_THAT(refusal(gltf.text(showing(triangle, R"(,"extensionsRequired":["EXT_sparkle"])"))),
-                HasSubstr("requires EXT_sparkle, which is not supported"));
+                FailsWith("import.gltf.extension", Field("extension", "EXT_sparkle")));
     EXPECT_THAT(imported(gltf.text(showing(triangle, R"(,"extensionsUsed":["EXT_sparkle"])"))).warnings,
                 Contains(HasSubstr("EXT_sparkle is ignored")));
 }
@@ -36,73 +39,89 @@ TEST(HostileGltf, AccessorsThatLeaveTheirBufferAreRefused) {
             "bufferViews":[{{"buffer":0,"byteLength":36{}}}],"accessors":[{{"bufferView":0,"componentType":5126,"type":"VEC3"{}}}],{}}})",
             base64(std::string(36, '\0')), view, accessor, showing(triangle)));
     };
-    EXPECT_THAT(broken(R"(,"count":4)", ""), HasSubstr("leave buffer view"));
-    EXPECT_THAT(broken(R"(,"count":4611686018427387904)", ""), HasSubstr("leave buffer view"));
-    EXPECT_THAT(broken(R"(,"count":3,"byteOffset":4)", ""), HasSubstr("leave buffer view"));
-    EXPECT_THAT(broken(R"(,"count":3,"byteOffset":18446744073709551612)", ""), HasSubstr("leave buffer view"));
-    EXPECT_THAT(broken(R"(,"count":3)", R"(,"byteOffset":8)"), HasSubstr("leaves its buffer"));
-    EXPECT_THAT(broken(R"(,"count":3)", R"(,"byteOffset":18446744073709551608)"), HasSubstr("leaves its buffer"));
-    EXPECT_THAT(broken(R"(,"count":3)", R"(,"byteStride":252)"), HasSubstr("leave buffer view"));
+    EXPECT_THAT(broken(R"(,"count":4)", ""), FailsWith("import.gltf.accessor_range", Field("view", 0)));
+    EXPECT_THAT(broken(R"(,"count":4611686018427387904)", ""), FailsWith("import.gltf.accessor_range", Field("view", 0)));
+    EXPECT_THAT(broken(R"(,"count":3,"byteOffset":4)", ""), FailsWith("import.gltf.accessor_range", Field("view", 0)));
+    EXPECT_THAT(broken(R"(,"count":3,"byteOffset":18446744073709551612)", ""),
+                FailsWith("import.gltf.accessor_range", Field("view", 0)));
+    EXPECT_THAT(broken(R"(,"count":3)", R"(,"byteOffset":8)"), FailsWith("import.gltf.buffer_view_range"));
+    EXPECT_THAT(broken(R"(,"count":3)", R"(,"byteOffset":18446744073709551608)"), FailsWith("import.gltf.buffer_view_range"));
+    EXPECT_THAT(broken(R"(,"count":3)", R"(,"byteStride":252)"), FailsWith("import.gltf.accessor_range", Field("view", 0)));
 }
 
 TEST(HostileGltf, DanglingReferencesAreRefused) {
     const Gltf gltf = Gltf().with_triangle();
     const std::string meshes = R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}])";
-    EXPECT_THAT(refusal(gltf.text(R"("nodes":[{"mesh":3}],)" + meshes)), HasSubstr("mesh 3"));
+    EXPECT_THAT(refusal(gltf.text(R"("nodes":[{"mesh":3}],)" + meshes)),
+                FailsWith("import.gltf.index_range", Field("list", "mesh"), Field("index", 3)));
     EXPECT_THAT(refusal(gltf.text(R"("scenes":[{"nodes":[0]}],"nodes":[{"children":[1]},{"children":[0]}],)" + meshes)),
-                HasSubstr("reached twice"));
-    EXPECT_THAT(refusal(gltf.text(R"("scenes":[{"nodes":[7]}],"nodes":[{}],)" + meshes)), HasSubstr("node 7"));
-    EXPECT_THAT(refusal(gltf.text(showing(R"({"attributes":{"POSITION":9}})"))), HasSubstr("accessor 9"));
-    EXPECT_THAT(refusal(gltf.text(showing(R"({"attributes":{"NORMAL":0}})"))), HasSubstr("POSITION"));
+                FailsWith("import.gltf.node_cycle", Field("node", 0)));
+    EXPECT_THAT(refusal(gltf.text(R"("scenes":[{"nodes":[7]}],"nodes":[{}],)" + meshes)),
+                FailsWith("import.gltf.index_range", Field("list", "node"), Field("index", 7)));
+    EXPECT_THAT(refusal(gltf.text(showing(R"({"attributes":{"POSITION":9}})"))),
+                FailsWith("import.gltf.index_range", Field("list", "accessor"), Field("index", 9)));
+    EXPECT_THAT(
+        refusal(gltf.text(showing(R"({"attributes":{"NORMAL":0}})"))),
+        FailsWith("import.gltf.index_range", Field("list", "accessor"), Field("index", -1), Field("attribute", "POSITION")));
     Gltf far = Gltf().with_triangle();
     far.accessor(bytes_of<std::uint16_t>({0, 1, 3}), 5123, "SCALAR", 3);
-    EXPECT_THAT(refusal(far.text(showing(R"({"indices":1,"attributes":{"POSITION":0}})"))), HasSubstr("vertex 3 of 3"));
+    EXPECT_THAT(refusal(far.text(showing(R"({"indices":1,"attributes":{"POSITION":0}})"))),
+                FailsWith("import.gltf.vertex_range", Field("vertex", 3), Field("vertices", 3)));
 }
 
 TEST(HostileGltf, ReferencesAndModesThatGltfDoesNotHaveAreNamed) {
     const auto with = [](const std::string& members) { return refusal(Gltf().with_triangle().text(members)); };
     EXPECT_THAT(with(showing(R"({"material":4,"attributes":{"POSITION":0}})", R"(,"materials":[{}])")),
-                HasSubstr("mesh 0 'm', primitive 0 uses material 4, which does not exist (there are 1)"));
+                FailsWith("import.gltf.index_range", Field("list", "material"), Field("index", 4), Field("count", 1),
+                          Field("place", "mesh 0 'm', primitive 0")));
     EXPECT_THAT(with(showing(R"({"mode":9,"attributes":{"POSITION":0}})")),
-                HasSubstr("mesh 0 'm', primitive 0 has mode 9; glTF's modes are 0 to 6"));
-    EXPECT_THAT(with(R"("nodes":[{"name":"n","camera":2}])"), HasSubstr("node 0 'n' uses camera 2"));
-    EXPECT_THAT(with(R"("nodes":[{"extensions":{"KHR_lights_punctual":{"light":0}}}])"), HasSubstr("uses light 0"));
-    EXPECT_THAT(with(showing(triangle, R"(,"textures":[{"source":5}])")), HasSubstr("texture 0 uses image 5"));
-    EXPECT_THAT(with(showing(triangle, R"(,"textures":[{"sampler":1}],"samplers":[{}])")), HasSubstr("texture 0 uses sampler 1"));
-    EXPECT_THAT(with(showing(triangle, R"(,"samplers":[{"wrapT":3}])")), HasSubstr("sampler 0 has wrapT 3"));
-    EXPECT_THAT(with(showing(triangle, R"(,"samplers":[{"magFilter":9984}])")), HasSubstr("sampler 0 has magFilter 9984"));
-    EXPECT_THAT(with(showing(triangle, R"(,"materials":[{"name":"glass","emissiveTexture":{"index":3}}])")),
-                HasSubstr("material 0 'glass' uses texture 3"));
+                FailsWith("import.gltf.mode", Field("place", "mesh 0 'm', primitive 0"), Field("mode", 9)));
+    EXPECT_THAT(with(R"("nodes":[{"name":"n","camera":2}])"),
+                FailsWith("import.gltf.index_range", Field("list", "camera"), Field("index", 2), Field("place", "node 0 'n'")));
+    EXPECT_THAT(with(R"("nodes":[{"extensions":{"KHR_lights_punctual":{"light":0}}}])"),
+                FailsWith("import.gltf.index_range", Field("list", "light"), Field("index", 0)));
+    EXPECT_THAT(with(showing(triangle, R"(,"textures":[{"source":5}])")),
+                FailsWith("import.gltf.index_range", Field("list", "image"), Field("index", 5), Field("place", "texture 0")));
+    EXPECT_THAT(with(showing(triangle, R"(,"textures":[{"sampler":1}],"samplers":[{}])")),
+                FailsWith("import.gltf.index_range", Field("list", "sampler"), Field("index", 1), Field("place", "texture 0")));
+    EXPECT_THAT(with(showing(triangle, R"(,"samplers":[{"wrapT":3}])")),
+                FailsWith("import.gltf.wrap_mode", Field("place", "sampler 0"), Field("member", "wrapT"), Field("mode", 3)));
+    EXPECT_THAT(with(showing(triangle, R"(,"samplers":[{"magFilter":9984}])")),
+                FailsWith("import.gltf.filter", Field("place", "sampler 0"), Field("filter", 9984)));
+    EXPECT_THAT(
+        with(showing(triangle, R"(,"materials":[{"name":"glass","emissiveTexture":{"index":3}}])")),
+        FailsWith("import.gltf.index_range", Field("list", "texture"), Field("index", 3), Field("place", "material 0 'glass'")));
 }
 
 TEST(HostileGltf, AFileThatNeedsANewerReaderIsRefused) {
     const auto with = [](const std::string& asset) {
         return refusal(fmt::format(R"({{"asset":{{{}}},"nodes":[{{}}]}})", asset));
     };
-    EXPECT_THAT(with(R"("version":"2.1","minVersion":"2.1")"), HasSubstr("asset.minVersion is 2.1; this program reads glTF 2.0"));
-    EXPECT_THAT(with(R"("version":"2.0","minVersion":"two")"), HasSubstr("asset.minVersion is 'two', which is not a version"));
-    EXPECT_THAT(with(R"("version":"2.x")"), HasSubstr("asset version is '2.x'"));
-    EXPECT_EQ(with(R"("version":"2.1","minVersion":"2.0")"), "it was imported");
+    EXPECT_THAT(with(R"("version":"2.1","minVersion":"2.1")"), FailsWith("import.gltf.min_version", Field("version", "2.1")));
+    EXPECT_THAT(with(R"("version":"2.0","minVersion":"two")"),
+                FailsWith("import.gltf.min_version_syntax", Field("version", "two")));
+    EXPECT_THAT(with(R"("version":"2.x")"), FailsWith("import.gltf.version", Field("version", "2.x")));
+    EXPECT_FALSE(with(R"("version":"2.1","minVersion":"2.0")"));
 }
 
 TEST(HostileGltf, ImageThatIsNoPictureOrLeavesItsBufferIsAWarning) {
     const ImportedScene scene = imported(with_image(R"("bufferView":0,"mimeType":"image/png")", ""));
-    EXPECT_THAT(scene.warnings, Contains(HasSubstr("neither PNG nor JPEG")));
-    EXPECT_THAT(imported(with_image(R"("bufferView":9)", "")).warnings, Contains(HasSubstr("buffer view 9 does not exist")));
+    EXPECT_THAT(scene.warnings, Contains(HasSubstr("PNG")));
+    EXPECT_THAT(imported(with_image(R"("bufferView":9)", "")).warnings, Contains(HasSubstr("buffer view 9")));
     std::string text = with_image(R"("bufferView":0,"mimeType":"image/png")", "");
     const std::string view = R"({"buffer":0,"byteOffset":0,"byteLength":36})";
     text.insert(text.find(view), R"({"buffer":0,"byteOffset":16,"byteLength":1000000},)");
     for (const char* accessor : {"\"bufferView\":1,\"comp", "\"bufferView\":0,\"comp"}) {  // the others move up by one
         text[text.find(accessor) + 13]++;
     }
-    EXPECT_THAT(imported(text).warnings, Contains(HasSubstr("leaves its buffer")));
+    EXPECT_THAT(imported(text).warnings, Contains(HasSubstr("bufferViews[0]")));
 }
 
 TEST(HostileGltf, WhatIsNoGltfIsRefused) {
-    EXPECT_THAT(refusal("not json"), HasSubstr("no readable glTF"));
-    EXPECT_THAT(refusal("\x89PNG\r\n"), HasSubstr("the file: byte 0 is 0x89 and not JSON"));
-    EXPECT_THAT(refusal(""), HasSubstr("no readable glTF"));
-    EXPECT_THAT(refusal(std::string("glTF\x02\0\0\0", 8)), HasSubstr("no readable glTF"));
+    EXPECT_THAT(refusal("not json"), FailsWith("import.gltf.json_syntax", Field("file", "test.gltf"), Field("word", "'not'")));
+    EXPECT_THAT(refusal("\x89PNG\r\n"), FailsWith("import.gltf.json_syntax", Field("word", "0x89"), Field("byte", 0)));
+    EXPECT_THAT(refusal(""), FailsWith("import.gltf.json_cut", Field("bytes", 0)));
+    EXPECT_THAT(refusal(std::string("glTF\x02\0\0\0", 8)), FailsWith("import.gltf.glb_header_cut"));
     EXPECT_FALSE(import_gltf("/nowhere/at_all.gltf", {}));
 }
 
@@ -111,9 +130,9 @@ TEST(HostileGltf, NestingWithoutEndIsRefused) {
         std::string text = Gltf().with_triangle().text(showing(triangle, R"(,"extras":)"));
         return text.insert(text.size() - 1, std::string(depth, '[') + std::string(depth, ']'));
     };
-    EXPECT_EQ(refusal(nested(60)), "it was imported");
-    EXPECT_THAT(refusal(nested(70)), HasSubstr("nests deeper than 64 levels"));
-    EXPECT_THAT(refusal(nested(1000000)), HasSubstr("nests deeper than 64 levels"));
+    EXPECT_FALSE(refusal(nested(60)));
+    EXPECT_THAT(refusal(nested(70)), FailsWith("import.gltf.json_depth", Field("most", 64)));
+    EXPECT_THAT(refusal(nested(1000000)), FailsWith("import.gltf.json_depth", Field("most", 64)));
 }
 
 TEST(HostileGltf, MoreObjectsThanTheBudgetHoldsAreRefused) {
@@ -121,7 +140,7 @@ TEST(HostileGltf, MoreObjectsThanTheBudgetHoldsAreRefused) {
     for (int i = 0; i < 5000; ++i) nodes += ",{}";
     const auto scene = import_text(R"({"asset":{"version":"2.0"},"nodes":[)" + nodes + "]}", {.memory_budget = 1 << 20});
     ASSERT_FALSE(scene);
-    EXPECT_THAT(scene.error().sentence, HasSubstr("lists of the JSON would take"));
+    EXPECT_THAT(scene, FailsWith("memory.budget", Field("what", "the objects and lists of the JSON")));
 }
 
 TEST(HostileGltf, NodesMayNestHoweverDeep) {
@@ -134,27 +153,42 @@ TEST(HostileGltf, NodesMayNestHoweverDeep) {
 
 TEST(HostileGltf, MembersOfAWrongTypeAreNamed) {
     const auto with = [](const std::string& members) { return refusal(Gltf().with_triangle().text(members)); };
-    EXPECT_THAT(with(R"("nodes":[{},{"children":[0,"x"]}])"), HasSubstr("glTF.nodes[1].children is not a list of indices"));
-    EXPECT_THAT(with(R"("nodes":[{"translation":[1,2]}])"), HasSubstr("nodes[0].translation is not a list of 3 numbers"));
-    EXPECT_THAT(with(R"("nodes":[{"mesh":-1}])"), HasSubstr("nodes[0].mesh is not an index"));
-    EXPECT_THAT(with(R"("nodes":[7])"), HasSubstr("nodes[0] is no object"));
-    EXPECT_THAT(with(R"("nodes":{})"), HasSubstr("nodes is not a list"));
-    EXPECT_THAT(with(R"("nodes":[{"scale":[1e999,1,1]}])"), HasSubstr("nodes[0].scale[0]: 1e999 is too large"));
-    EXPECT_THAT(refusal(R"({"asset":{"version":"1.0"}})"), HasSubstr("its asset version is '1.0'"));
+    EXPECT_THAT(with(R"("nodes":[{},{"children":[0,"x"]}])"),
+                FailsWith("import.gltf.member_type", Field("place", "glTF.nodes[1]"), Field("member", "children")));
+    EXPECT_THAT(with(R"("nodes":[{"translation":[1,2]}])"),
+                FailsWith("import.gltf.member_type", Field("place", "glTF.nodes[0]"), Field("member", "translation")));
+    EXPECT_THAT(with(R"("nodes":[{"mesh":-1}])"),
+                FailsWith("import.gltf.member_type", Field("place", "glTF.nodes[0]"), Field("member", "mesh")));
+    EXPECT_THAT(with(R"("nodes":[7])"), FailsWith("import.gltf.not_an_object", Field("place", "glTF.nodes[0]")));
+    EXPECT_THAT(with(R"("nodes":{})"), FailsWith("import.gltf.member_type", Field("place", "glTF"), Field("member", "nodes")));
+    EXPECT_THAT(with(R"("nodes":[{"scale":[1e999,1,1]}])"),
+                FailsWith("import.gltf.json_number", Field("place", "glTF.nodes[0].scale[0]"), Field("number", "1e999")));
+    EXPECT_THAT(refusal(R"({"asset":{"version":"1.0"}})"), FailsWith("import.gltf.version", Field("version", "1.0")));
 }
 
 TEST(HostileGltf, TextThatIsNoJsonIsQuotedWithItsPlace) {
     const std::string materials = R"({"asset":{"version":"2.0"},"materials":[{},{"alphaCutoff":)";
-    EXPECT_THAT(refusal(materials + "NaN}]}"), HasSubstr("glTF.materials[1].alphaCutoff: 'NaN' at byte 58 is not JSON"));
+    EXPECT_THAT(refusal(materials + "NaN}]}"),
+                FailsWith("import.gltf.json_syntax", Field("place", "glTF.materials[1].alphaCutoff"), Field("word", "'NaN'"),
+                          Field("byte", 58)));
     EXPECT_THAT(refusal(materials + "-Infinity}]}"),
-                HasSubstr("glTF.materials[1].alphaCutoff: '-Infinity' at byte 58 is not JSON"));
-    EXPECT_THAT(refusal(materials + "1e400}]}"), HasSubstr("glTF.materials[1].alphaCutoff: 1e400 is too large for a number"));
-    EXPECT_THAT(refusal(materials + "[0,[1,nan"), HasSubstr("glTF.materials[1].alphaCutoff[1][1]: 'nan'"));
-    EXPECT_THAT(refusal(materials + "1;}]}"), HasSubstr("glTF.materials[1].alphaCutoff: '1;' at byte 58"));
-    EXPECT_THAT(refusal(materials), HasSubstr("the JSON is cut short in glTF.materials[1].alphaCutoff after 58 bytes"));
-    EXPECT_THAT(refusal(R"({"asset":{"vers)"), HasSubstr("the JSON is cut short in glTF.asset after 15 bytes"));
-    EXPECT_THAT(refusal("hello"), HasSubstr("the file: 'hello' at byte 0 is not JSON"));
-    EXPECT_THAT(refusal(""), HasSubstr("cut short in the file after 0 bytes"));
+                FailsWith("import.gltf.json_syntax", Field("place", "glTF.materials[1].alphaCutoff"),
+                          Field("word", "'-Infinity'"), Field("byte", 58)));
+    EXPECT_THAT(refusal(materials + "1e400}]}"),
+                FailsWith("import.gltf.json_number", Field("place", "glTF.materials[1].alphaCutoff"), Field("number", "1e400")));
+    EXPECT_THAT(
+        refusal(materials + "[0,[1,nan"),
+        FailsWith("import.gltf.json_syntax", Field("place", "glTF.materials[1].alphaCutoff[1][1]"), Field("word", "'nan'")));
+    EXPECT_THAT(refusal(materials + "1;}]}"),
+                FailsWith("import.gltf.json_syntax", Field("place", "glTF.materials[1].alphaCutoff"), Field("word", "'1;'"),
+                          Field("byte", 58)));
+    EXPECT_THAT(refusal(materials),
+                FailsWith("import.gltf.json_cut", Field("place", "glTF.materials[1].alphaCutoff"), Field("bytes", 58)));
+    EXPECT_THAT(refusal(R"({"asset":{"vers)"),
+                FailsWith("import.gltf.json_cut", Field("place", "glTF.asset"), Field("bytes", 15)));
+    EXPECT_THAT(refusal("hello"),
+                FailsWith("import.gltf.json_syntax", Field("place", "the file"), Field("word", "'hello'"), Field("byte", 0)));
+    EXPECT_THAT(refusal(""), FailsWith("import.gltf.json_cut", Field("place", "the file"), Field("bytes", 0)));
 }
 
 TEST(HostileGltf, PicturesAreHeldAgainstTheBudgetBeforeTheyAreDecoded) {
@@ -165,14 +199,14 @@ TEST(HostileGltf, PicturesAreHeldAgainstTheBudgetBeforeTheyAreDecoded) {
     const auto scene = import_text(text, {.memory_budget = 1 << 20});
     ASSERT_FALSE(scene);
     EXPECT_EQ(scene.error().fault, Fault::device_lacks);
-    EXPECT_THAT(scene.error().sentence, HasSubstr("image 0 would take 6144.0 MiB (268435456 x 24 bytes)"));
+    EXPECT_THAT(scene, FailsWith("memory.budget", Field("what", "image 0"), Field("count", 268435456), Field("each_bytes", 24)));
 }
 
 TEST(HostileGltf, OtherPicturesThanPngAndJpegNeverReachADecoder) {
     const std::string gif = "GIF89a\1\0\1\0\0\0\0;", bmp = "BM" + std::string(60, '\1');
     for (const std::string& picture : {gif, bmp}) {
         EXPECT_THAT(imported(with_image(fmt::format(R"("uri":"data:image/png;base64,{}")", base64(picture)), "")).warnings,
-                    Contains(HasSubstr("neither PNG nor JPEG")));
+                    Contains(HasSubstr("PNG")));
     }
 }
 

@@ -2,12 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
+#include "tests/support/errors.h"
 #include "tests/support/gltf_text.h"
 
 namespace strata {
 namespace {
-
-using testing::HasSubstr;
 
 /// A triangle shown by one node with these attributes of instances; accessors from 1 on come from the caller.
 std::string instanced(const Gltf& gltf, const std::string& attributes, const std::string& node = "") {
@@ -77,15 +77,19 @@ TEST(GltfInstances, OfOtherTypesOrLengthsAreRefused) {
     gltf.floats({1, 1, 1}, "VEC3", 3);
     gltf.accessor(bytes_of<std::uint16_t>({1, 2, 3, 0, 0, 0}), 5123, "VEC3", 2);
     gltf.accessor(bytes_of<std::uint8_t>({0, 0, 0, 255, 0, 0, 0, 255}), 5121, "VEC4", 2, R"(,"normalized":true)");
-    const auto sentence = [&](const std::string& attributes) { return refusal(instanced(gltf, attributes)); };
-    EXPECT_THAT(sentence(R"("TRANSLATION":1,"SCALE":2)"),
-                HasSubstr("instances of node 'n': TRANSLATION has 2 elements, others have 1"));
-    EXPECT_THAT(sentence(R"("TRANSLATION":3)"), HasSubstr("TRANSLATION has component type 5123; it must be float (5126)"));
-    EXPECT_THAT(sentence(R"("ROTATION":4)"),
-                HasSubstr("ROTATION has component type 5121; it must be float (5126) or normalized signed"));
-    EXPECT_THAT(sentence(R"("ROTATION":1)"), HasSubstr("ROTATION: accessor 1 is a 'VEC3'"));
-    EXPECT_THAT(sentence(R"("SCALE":9)"), HasSubstr("SCALE: accessor 9 does not exist"));
-    EXPECT_THAT(sentence(""), HasSubstr("EXT_mesh_gpu_instancing has no attributes"));
+    const auto refused = [&](const std::string& attributes) { return refusal(instanced(gltf, attributes)); };
+    EXPECT_THAT(refused(R"("TRANSLATION":1,"SCALE":2)"),
+                FailsWith("import.gltf.attribute_count", Field("node", "n"), Field("attribute", "TRANSLATION"),
+                          Field("elements", 2), Field("wanted", 1)));
+    EXPECT_THAT(refused(R"("TRANSLATION":3)"),
+                FailsWith("import.gltf.not_floats", Field("attribute", "TRANSLATION"), Field("component_type", 5123)));
+    EXPECT_THAT(refused(R"("ROTATION":4)"),
+                FailsWith("import.gltf.not_floats", Field("attribute", "ROTATION"), Field("component_type", 5121)));
+    EXPECT_THAT(refused(R"("ROTATION":1)"), FailsWith("import.gltf.accessor_type", Field("attribute", "ROTATION"),
+                                                      Field("accessor", 1), Field("type", "VEC3")));
+    EXPECT_THAT(refused(R"("SCALE":9)"),
+                FailsWith("import.gltf.index_range", Field("list", "accessor"), Field("index", 9), Field("attribute", "SCALE")));
+    EXPECT_THAT(refused(""), FailsWith("import.gltf.no_instance_attributes"));
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "capture_format/export/png.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
 #include "capture_format/import/gltf_materials.h"
 #include "tests/support/gltf_text.h"
 
@@ -59,7 +61,7 @@ TEST(GltfGlass, AThicknessTextureIsReplacedByTheMeanOfItsGreen) {
             "KHR_materials_volume":{{"thicknessFactor":2,"thicknessTexture":{{"index":0}},"attenuationDistance":1,
             "attenuationColor":[0.5,0.5,0.5]}}}}}}])",
                                       tiny_jpeg))));
-    EXPECT_NEAR(scene.frame.materials[0].transmission.x, std::pow(0.5, 2 * 188 / 255.0), 0.01) << "the picture is grey 188";
+    EXPECT_NEAR(scene.frame.materials[0].transmission.x, std::pow(0.5, 2 * 188 / 255.0), 0.01) << "the picture is gray 188";
     EXPECT_THAT(scene.warnings, Contains(HasSubstr("thickness texture is replaced by its mean")));
 }
 

@@ -12,6 +12,7 @@
 #include "capture_format/import/gltf.h"
 #include "capture_format/import/seen.h"
 #include "capture_format/reader.h"
+#include "tests/support/errors.h"
 #include "tests/support/gltf_text.h"
 
 namespace strata {
@@ -146,18 +147,15 @@ TEST(ImportGltf, AnEyeATargetAndAFieldOfViewReplaceTheCamera) {
     const View middle = imported(text, {.eye = glm::dvec3(0.5, 0.5, 4)}).frame.view;
     EXPECT_EQ(middle.to_view * glm::dvec3(0, 0, -1), glm::dvec3(0, 0, 1)) << "the middle of the scene is (.5, .5, 0)";
     EXPECT_TRUE(import_text(text, {.eye = glm::dvec3(0, 9, 0), .target = glm::dvec3(0)})) << "straight down";
-    const auto sentence = [&](const GltfOptions& options) {
-        const auto scene = import_text(text, options);
-        return scene ? "imported" : fmt::format("{} {}", static_cast<int>(scene.error().fault), scene.error().sentence);
-    };
-    EXPECT_THAT(sentence({.target = glm::dvec3(1)}), HasSubstr("2 a target needs an eye"));
-    EXPECT_THAT(sentence({.eye = glm::dvec3(1), .target = glm::dvec3(1)}), HasSubstr("2 the eye cannot look at the place"));
-    EXPECT_THAT(sentence({.camera = 0, .eye = glm::dvec3(1)}), HasSubstr("choose one"));
-    EXPECT_THAT(sentence({.fov = 180}), HasSubstr("2 a field of view has 1 to 170 degrees"));
+    EXPECT_THAT(import_text(text, {.target = glm::dvec3(1)}), FailsWith("import.gltf.target_without_eye"));
+    EXPECT_THAT(import_text(text, {.eye = glm::dvec3(1), .target = glm::dvec3(1)}), FailsWith("import.gltf.eye_is_target"));
+    EXPECT_THAT(import_text(text, {.camera = 0, .eye = glm::dvec3(1)}),
+                FailsWith("import.gltf.two_cameras", Field("option", "--eye"), Field("other", "--camera")));
+    EXPECT_THAT(import_text(text, {.fov = 180}), FailsWith("import.gltf.fov_range", Field("fov", 180)));
 }
 
 TEST(ImportGltf, InsideViewsStandWithinTheSceneAndSeeItAllAround) {
-    Gltf gltf;  // a room of 8 x 3 x 6 metres
+    Gltf gltf;  // a room of 8 x 3 x 6 meters
     gltf.floats({0, 0, 0, 8, 0, 0, 0, 3, 0, 8, 3, 0, 0, 0, 6, 8, 0, 6, 0, 3, 6, 8, 3, 6}, "VEC3", 3);
     gltf.accessor(bytes_of<std::uint8_t>({0, 1, 2, 1, 3, 2, 4, 6, 5, 5, 6, 7, 0, 2, 4, 2, 6, 4,
                                           1, 5, 3, 3, 5, 7, 0, 4, 1, 1, 4, 5, 2, 3, 6, 3, 7, 6}),
@@ -189,12 +187,13 @@ TEST(ImportGltf, StrongLightsLowerTheExposure) {
     EXPECT_EQ(scene(8).frame.view.exposure, 1) << "8 / 2^2 / pi = 0.64";
     const ImportedScene strong = scene(400);
     EXPECT_NEAR(strong.frame.view.exposure, 1.7 / (400 / 4 / 3.14159265), 1e-6);
-    EXPECT_THAT(strong.warnings, Contains(HasSubstr("the exposure is 0.0534")));
+    EXPECT_THAT(strong.warnings, Contains(HasSubstr("0.0534")));
     EXPECT_GT(scene(3e38).frame.view.exposure, 0) << "a float holds this light";
 }
 
 TEST(ImportGltf, ALightThatAFloatCannotHoldIsRefusedByItsName) {
-    EXPECT_THAT(refusal(lit_by(1e300)), HasSubstr("light 0 'lamp': its intensity is not finite"));
+    EXPECT_THAT(refusal(lit_by(1e300)), FailsWith("frame.not_finite", Field("property", "intensity"), Field("subject", "light"),
+                                                  Field("number", 0), Field("name", "lamp")));
 }
 
 TEST(ImportGltf, WithoutLightsThereIsASunAndASky) {
@@ -361,8 +360,8 @@ TEST(ImportGltf, OddMipsWeighTexelsByArea) {
     Texture texture;
     texture.width = 3;
     texture.height = 1;
-    for (const int grey : {30, 60, 120}) {
-        for (int c = 0; c < 4; ++c) texture.texels.push_back(static_cast<std::byte>(grey));
+    for (const int gray : {30, 60, 120}) {
+        for (int c = 0; c < 4; ++c) texture.texels.push_back(static_cast<std::byte>(gray));
     }
     const Texture done = with_mips(texture);
     EXPECT_EQ(done.mips, 2u);

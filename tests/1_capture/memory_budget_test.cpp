@@ -10,6 +10,7 @@
 #include "capture_format/recorder.h"
 #include "tests/1_capture/sample_frames.h"
 #include "tests/1_capture/temporary_file.h"
+#include "tests/support/errors.h"
 
 namespace strata {
 namespace {
@@ -30,10 +31,8 @@ TEST(MemoryBudgets, RefuseWhatIsMoreThanIsLeftWithNumbers) {
     const auto refused = budget.take(5, mib, "image 7");
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().fault, Fault::device_lacks);
-    EXPECT_EQ(
-        refused.error().sentence,
-        "image 7 would take 5.0 MiB (5 x 1048576 bytes); the memory budget is 16.0 MiB, of which 4.0 MiB are left: allow more "
-        "with --memory-budget");
+    EXPECT_THAT(refused, FailsWith("memory.budget", Field("what", "image 7"), Field("size", "5.0 MiB"), Field("count", 5),
+                                   Field("each_bytes", mib), Field("budget", "16.0 MiB"), Field("left", "4.0 MiB")));
     EXPECT_FALSE(budget.take(~std::uint64_t{0}, ~std::uint64_t{0}, "a product that would wrap"));
     budget.give_back(12 * mib);
     EXPECT_EQ(budget.left(), 16 * mib);
@@ -59,8 +58,7 @@ TEST(CaptureBudget, BoundsAFrameAndTheBlobsItComesFrom) {
         const auto frame = Capture::open(path, Partial::refused, budget)->frame(0);
         ASSERT_FALSE(frame) << budget;
         EXPECT_EQ(frame.error().fault, Fault::device_lacks);
-        EXPECT_THAT(frame.error().sentence, HasSubstr("would take 16.0 MiB"));
-        EXPECT_THAT(frame.error().sentence, HasSubstr(path));
+        EXPECT_THAT(frame, FailsWith("memory.budget", Field("size", "16.0 MiB"), Field("file", path)));
     }
 }
 
@@ -73,7 +71,7 @@ TEST(CaptureBudget, BoundsWhatAFrameUnpacksTo) {
     const auto refused = Capture::open(file.path(), Partial::refused, 4 * mib)->frame(0);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().fault, Fault::device_lacks);
-    EXPECT_THAT(refused.error().sentence, HasSubstr("(frame) at offset"));
+    EXPECT_THAT(refused, FailsWith("memory.budget", Field("what", HasSubstr("(frame)"))));
     EXPECT_TRUE(Capture::open(file.path(), Partial::refused, 64 * mib)->frame(0));
 }
 

@@ -1,5 +1,6 @@
 // A Result handed on: and_then() calls what follows only where there is a value, and keeps the error where there is none.
 #include <memory>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -49,6 +50,14 @@ TEST(Result, AnErrorHasAnIdAndTheValuesOfItsSentenceByName) {
     EXPECT_EQ(std::get<double>(error.field("share")->value), .25) << "as it is, not as it is printed";
     EXPECT_EQ(std::get<std::string>(error.field("name")->value), "a.bin");
     EXPECT_EQ(error.field("missing"), nullptr);
+}
+
+TEST(Result, EveryKindOfErrorHasAName) {
+    std::set<std::string_view> names;
+    for (const int code : {1, 2, 3, 4, 5, 6, 7, 8, 130}) names.insert(name(static_cast<Fault>(code)));
+    EXPECT_EQ(names.size(), 9u);
+    EXPECT_FALSE(names.contains("unknown"));
+    EXPECT_EQ(name(Fault::over_tolerance), "over_tolerance");
 }
 
 TEST(Result, WhatWrapsAnErrorKeepsItsIdAndFields) {

@@ -12,6 +12,7 @@
 #include "capture_format/reader.h"
 #include "capture_format/recorder.h"
 #include "captures/scenarios.h"
+#include "tests/support/errors.h"
 
 namespace strata {
 namespace {
@@ -111,7 +112,8 @@ TEST(Scenarios, AreFoundByNameAndMissedWithTheNearestOne) {
     ASSERT_TRUE(find_scenario("three_cards"));
     const auto missed = find_scenario("three_crads");
     ASSERT_FALSE(missed);
-    EXPECT_EQ(missed.error().sentence, "no scenario three_crads; did you mean three_cards?");
+    EXPECT_THAT(missed, FailsWith("scenario.unknown", Field("scenario", "three_crads"),
+                                  Field("suggestion", testing::HasSubstr("three_cards"))));
 }
 
 TEST(Scenarios, FollowTheAskedExtentAndSamples) {

@@ -10,11 +10,10 @@
 #include "tests/1_capture/frame_fields.h"
 #include "tests/1_capture/sample_frames.h"
 #include "tests/1_capture/temporary_file.h"
+#include "tests/support/errors.h"
 
 namespace strata {
 namespace {
-
-using testing::HasSubstr;
 
 /// A recorder with the triangle's mesh and material.
 Recorder triangles(const std::filesystem::path& path, const RecorderOptions& options = {}) {
@@ -111,7 +110,8 @@ TEST(Streaming, ABadResourceKeepsFramesOutUntilItIsReplaced) {
         return ended ? recorder.flush() : ended;
     };
     recorder.update_mesh(0, torn);
-    EXPECT_EQ(one_frame().error().sentence, "frame 0 cannot be recorded: mesh 0 'triangle': index 2 points at vertex 7 of 3");
+    EXPECT_THAT(one_frame(), FailsWith("frame.vertex_range", Field("index", 2), Field("vertex", 7), Field("vertices", 3),
+                                       Field("subject", "mesh"), Field("name", "triangle"), Field("frame", 0)));
     recorder.update_mesh(0, triangle_frame().meshes[0]);
     EXPECT_TRUE(one_frame());
     EXPECT_TRUE(recorder.finish());
@@ -125,12 +125,13 @@ TEST(Streaming, WhatCanNeverFitTheBudgetIsAnErrorWithBothNumbers) {
     recorder.draws(std::vector<Draw>(400));
     const auto frame = recorder.end_frame();
     ASSERT_FALSE(frame);
-    EXPECT_THAT(frame.error().sentence,
-                testing::MatchesRegex("frame 0 takes [0-9]{6} bytes, more than the recorder's budget of 100000"));
+    EXPECT_THAT(frame, FailsWith("record.budget", Field("resource", "frame 0"), Field("bytes", testing::MatchesRegex("[0-9]{6}")),
+                                 Field("budget", 100000)));
     begin(recorder);
     EXPECT_TRUE(recorder.end_frame() && recorder.flush()) << "a frame that was too large is left out, later ones follow";
     recorder.add_texture(picture(256, 256, 0));
-    EXPECT_THAT(recorder.finish().error().sentence, HasSubstr("'screen' takes 262"));
+    EXPECT_THAT(recorder.finish(),
+                FailsWith("record.budget", Field("resource", "'screen'"), Field("bytes", testing::StartsWith("262"))));
     EXPECT_EQ(recorder.frames_written(), 1u);
 }
 
@@ -168,10 +169,11 @@ TEST(Streaming, CallsOutOfOrderAreNamedByTheNextThatReturns) {
     Recorder outside = triangles(file.path());
     outside.draw({});
     begin(outside);
-    EXPECT_EQ(outside.end_frame().error().sentence, "draw() was called outside of begin_frame() and end_frame()");
+    EXPECT_THAT(outside.end_frame(), FailsWith("record.outside_frame", Field("call", "draw")));
     Recorder unknown = triangles(file.path());
     unknown.update_texture(3, {});
-    EXPECT_EQ(unknown.flush().error().sentence, "update_texture() was called for index 3 of 0");
+    EXPECT_THAT(unknown.flush(),
+                FailsWith("record.index_out_of_range", Field("call", "update_texture"), Field("index", 3), Field("count", 0)));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "capture_format/reader.h"
 #include "tests/1_capture/sample_frames.h"
+#include "tests/support/errors.h"
 
 namespace strata {
 namespace {
@@ -51,7 +52,7 @@ TEST(LookAt, DepthIsReversedAndEndsNowhere) {
     const View view = straight(Handedness::right, 2);
     EXPECT_NEAR(seen(view, {0, 0, 1.5}).z, 1, 1e-6) << "at the near plane";
     EXPECT_NEAR(seen(view, {0, 0, -1e9}).z, 0, 1e-8) << "far away";
-    EXPECT_EQ((view.to_view * (glm::dvec3(0, 0, -5) - view.origin)).z, 7) << "view depth in metres";
+    EXPECT_EQ((view.to_view * (glm::dvec3(0, 0, -5) - view.origin)).z, 7) << "view depth in meters";
 }
 
 TEST(LookAt, UpDecidesWhatIsAbove) {
@@ -77,7 +78,7 @@ TEST(LookAt, MakesViewsThatTheRecorderTakesUnlessTheEyeIsTheTarget) {
     frame.view = look_at({.eye = {1, 2, 3}, .target = {1, 2, 3}});
     const auto refused = check_frame(frame);
     ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().sentence, testing::HasSubstr("to_view must be a rotation"));
+    EXPECT_THAT(refused, FailsWith("frame.not_rotation"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "capture_format/container/kept_files.h"
 #include "tests/1_capture/temporary_file.h"
+#include "tests/support/errors.h"
 
 namespace strata {
 namespace {
@@ -87,7 +88,7 @@ TEST(WholeFile, SaysWhatTheSystemSaysAndIsAUsageError) {
         const auto written = write_whole_file(path, "text");
         ASSERT_FALSE(written) << path;
         EXPECT_EQ(written.error().fault, Fault::usage);
-        EXPECT_THAT(written.error().sentence, testing::AllOf(HasSubstr(path.string()), HasSubstr(words)));
+        EXPECT_THAT(written, FailsWith("file.cannot_write", Field("file", HasSubstr(path.string())), Field("reason", words)));
     };
     expect(folder, "Is a directory");
     expect(folder / "missing" / "a", "No such file or directory");
@@ -106,7 +107,7 @@ TEST(WholeFile, AKeptFileIsNotReplacedByAnyNameOrLink) {
         const auto written = write_whole_file(output, "new");
         ASSERT_FALSE(written) << output;
         EXPECT_EQ(written.error().fault, Fault::usage);
-        EXPECT_THAT(written.error().sentence, HasSubstr("it is the input " + (folder / "input").string()));
+        EXPECT_THAT(written, FailsWith("file.is_input", Field("input", (folder / "input").string())));
     }
     EXPECT_TRUE(write_whole_file(folder / "other", "new"));
     keep_files({});

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "passes/graph/graph.h"
 #include "tests/2_graph/small_graphs.h"
 
 namespace strata {
@@ -174,7 +175,7 @@ TEST(Barriers, CountersAreClearedThenUpdatedStepByStepAndReadAtTheEnd) {
     Graph graph;
     Image a = graph.create("a", small_shape()), b = graph.create("b", small_shape());
     graph.clear(a, {});
-    graph.enter(act_of(Stage::rain, "rain/some"), 4);
+    graph.enter(pass_of(Stage::rain, "rain/some"), 4);
     for (int i = 0; i < 2; ++i) graph.compute("shade_and_count.comp").samples("source", a).stores("target", b).over({64, 32});
     graph.keep(b);
     const Plan plan = compiled(graph);

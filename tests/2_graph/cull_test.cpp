@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "passes/graph/graph.h"
 #include "tests/2_graph/small_graphs.h"
 
 namespace strata {
@@ -12,7 +13,7 @@ using testing::IsEmpty;
 
 TEST(Culling, AStepNobodyReadsIsLeftOutAndSaysWhy) {
     Graph graph;
-    graph.enter(act_of(Stage::gbuffer, "gbuffer/wide"));
+    graph.enter(pass_of(Stage::gbuffer, "gbuffer/wide"));
     Image color = graph.create("color", small_shape()), normal = graph.create("surface normal", small_shape());
     graph.compute("write.comp").stores("target", color).over({64, 32});
     graph.compute("write.comp").stores("target", normal).over({64, 32});
@@ -69,9 +70,9 @@ TEST(Culling, AFullscreenPassMakesWhatWasBeforeUselessUnlessItCoversOnlyAPart) {
         Graph graph;
         Image a = graph.create("a", small_shape());
         graph.clear(a, {});
-        FullscreenPass pass = graph.fullscreen("paint");
-        pass.covers(a);
-        if (within) pass.within(*within);
+        FullscreenStep builder = graph.fullscreen("paint");
+        builder.covers(a);
+        if (within) builder.within(*within);
         graph.keep(a);
         return compiled(graph).steps.size();
     };
@@ -83,7 +84,7 @@ TEST(Culling, CountingKeepsNoStepAlive) {
     Graph graph;
     Image a = graph.create("a", small_shape());
     graph.clear(a, {});
-    graph.enter(act_of(Stage::transparency, "transparency/weighted"), 4);
+    graph.enter(pass_of(Stage::transparency, "transparency/weighted"), 4);
     graph.compute("count.comp").samples("source", a).over({64, 32});
     const Plan plan = compiled(graph);
     EXPECT_THAT(plan.steps, IsEmpty());
@@ -103,11 +104,11 @@ TEST(Culling, AnImportOutlivesTheFrameSoWritingItIsNeverUseless) {
 TEST(Culling, ADroppedScopesOutputsMayComeFromACopy) {
     Graph graph;
     Image a = graph.create("a", small_shape()), b = graph.create("b", small_shape());
-    graph.enter(act_of(Stage::lighting, "lighting/slow"));
+    graph.enter(pass_of(Stage::lighting, "lighting/slow"));
     graph.compute("write.comp").stores("target", a).over({64, 32});
     graph.drop_scope(1);
     graph.copy(graph.import("memo of a", small_shape(), ImportId{1}), a);
-    graph.enter(act_of(Stage::combine, "combine/quick"));
+    graph.enter(pass_of(Stage::combine, "combine/quick"));
     graph.compute("copy.comp").loads("source", a).stores("target", b).over({64, 32});
     graph.keep(b);
     EXPECT_THAT(step_names(compiled(graph)), ElementsAre("copy memo of a to a", "copy.comp"));

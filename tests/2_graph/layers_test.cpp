@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/graph/describe.h"
+#include "passes/graph/graph.h"
 #include "tests/2_graph/small_graphs.h"
 
 namespace strata {
@@ -10,7 +11,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::StartsWith;
 using testing::UnorderedElementsAre;
 
 Shape layered(std::uint32_t layers, Format format = Format::r8_unorm) {
@@ -30,7 +30,7 @@ struct Slices {
         graph.clear(slices, {{1, 1, 1, 1}});
         graph.keep(slices);
     }
-    DrawPass draw() { return graph.draw("paint", list).geometry("sort"); }
+    DrawStep draw() { return graph.draw("paint", list).geometry("sort"); }
 };
 
 TEST(LayeredDraws, GoThroughAGeometryShaderWithTheVertexShaderBesideItOrTheScenes) {
@@ -40,7 +40,7 @@ TEST(LayeredDraws, GoThroughAGeometryShaderWithTheVertexShaderBesideItOrTheScene
 
     Slices own;
     own.graph.draw("paint", own.list).geometry("depth_only").multiplies(own.slices);
-    EXPECT_THAT(refusal(own.graph), StartsWith("no shader depth_only.geom"));
+    EXPECT_THAT(refusal(own.graph), FailsWith("shader.unknown", Field("shader", "depth_only.geom")));
 }
 
 TEST(LayeredDraws, TakeWhatTheGeometryShaderDeclaresFromTheOffers) {
@@ -56,7 +56,8 @@ TEST(LayeredDraws, HaveOneThingInOnePlaceWhicheverShaderDeclaresIt) {
     Image source = f.graph.create("source", small_shape());
     f.graph.clear(source, {});
     f.graph.draw("shade", f.list).geometry("sort").samples("source", source).multiplies(f.slices);
-    EXPECT_THAT(refusal(f.graph), HasSubstr("where the step's other shader declares"));
+    EXPECT_THAT(refusal(f.graph),
+                FailsWith("graph.binding_place_taken", Field("binding", "source"), Field("other", "List"), Field("slot", 0)));
 }
 
 TEST(LayeredDraws, DrawIntoAsManyLayersAsTheirAttachmentsHave) {
@@ -73,22 +74,25 @@ TEST(LayeredDraws, NeedAsManyLayersOfEveryAttachment) {
     Image depth = f.graph.create("depth", small_depth());
     f.graph.clear(depth, {});
     f.draw().multiplies(f.slices).tests_depth(depth);
-    EXPECT_EQ(refusal(f.graph), "paint draws into 'slices' with 4 layers and into 'depth' with 1");
+    EXPECT_THAT(refusal(f.graph), FailsWith("graph.attachment_layers", Field("image", "slices"), Field("layers", 4),
+                                            Field("other", "depth"), Field("other_layers", 1)));
 
     Slices part;
     Image maps = part.graph.create("maps", layered(6, Format::d32f));
     part.graph.clear(maps, {});
     part.draw().multiplies(part.slices, {.layer = 1}).writes_depth(maps);
-    EXPECT_EQ(refusal(part.graph), "paint draws into 'slices' with 1 layers and into 'maps' with 6");
+    EXPECT_THAT(refusal(part.graph), FailsWith("graph.attachment_layers", Field("image", "slices"), Field("layers", 1),
+                                               Field("other", "maps"), Field("other_layers", 6)));
 }
 
 TEST(LayeredDraws, NeedAShaderThatChoosesTheLayer) {
     Slices f;
     f.graph.draw("paint", f.list).multiplies(f.slices);
-    EXPECT_EQ(refusal(f.graph), "paint draws into 'slices', which has 4 layers: name one, or let a shader write gl_Layer");
+    EXPECT_THAT(refusal(f.graph),
+                FailsWith("graph.layer_not_named", Field("step", "paint"), Field("image", "slices"), Field("layers", 4)));
     Slices fullscreen;
     fullscreen.graph.fullscreen("paint").covers(fullscreen.slices);
-    EXPECT_THAT(refusal(fullscreen.graph), HasSubstr("let a shader write gl_Layer"));
+    EXPECT_THAT(refusal(fullscreen.graph), FailsWith("graph.layer_not_named", Field("image", "slices")));
 }
 
 TEST(LayeredDraws, WaitForEveryLayerAndAreWaitedFor) {

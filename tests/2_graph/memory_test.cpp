@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "passes/graph/graph.h"
 #include "tests/2_graph/small_graphs.h"
 
 namespace strata {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/graph/describe.h"
+#include "passes/graph/graph.h"
 #include "tests/2_graph/small_graphs.h"
 
 namespace strata {
@@ -26,14 +27,14 @@ void expect_golden(const std::string& name, const std::string& text) {
     ADD_FAILURE() << (file ? "the text differs" : "there is no golden text");
 }
 
-TEST(PlanText, AScopeNamesItsTechniqueAndThePlaceWhereThatActs) {
-    Scope scope{ScopeKind::act, Stage::shadows, Stage::occlusion, "shadows/some"};
+TEST(PlanText, AScopeNamesItsTechniqueAndThePlaceWhereThatRuns) {
+    Scope scope{ScopeKind::pass, Stage::shadows, Stage::occlusion, "shadows/some"};
     EXPECT_EQ(text_of(scope), "occlusion: shadows/some");
-    EXPECT_TRUE(is_act_of(scope, "shadows/some"));
-    EXPECT_FALSE(is_act_of(scope, "some"));
+    EXPECT_TRUE(is_pass_of(scope, "shadows/some"));
+    EXPECT_FALSE(is_pass_of(scope, "some"));
     scope.kind = ScopeKind::memo;
     EXPECT_EQ(text_of(scope), "memo: occlusion: shadows/some");
-    EXPECT_FALSE(is_act_of(scope, "shadows/some")) << "a copy is not the technique's work";
+    EXPECT_FALSE(is_pass_of(scope, "shadows/some")) << "a copy is not the technique's work";
     EXPECT_EQ(text_of({ScopeKind::view, Stage::shadows, Stage::shadows, "shadows/some", "atlas"}), "view: shadows/some:atlas");
     EXPECT_EQ(text_of({}), "frame");
 }
@@ -75,7 +76,7 @@ TEST(ImagesWritten, AreWhatAStepClearsCopiesToStoresOrDrawsIntoEachOnce) {
     EXPECT_THAT(written(4), testing::UnorderedElementsAre("depth", "color"));
 }
 
-/// Opaque draws, a lighting step, and a transparency method with counters and a debug picture nobody asked for.
+/// Opaque draws, a lighting step, and a transparency technique with counters and a debug picture nobody asked for.
 Graph small_frame() {
     Graph graph;
     const DrawList opaque{graph.import("opaque commands", 200, ImportId{1}), graph.import("indices", 1200, ImportId{2}), 0, 10};
@@ -83,16 +84,16 @@ Graph small_frame() {
           light = graph.create("light", small_shape()), color = graph.create("color", small_shape()),
           picture = graph.create("picture of normals", small_shape());
 
-    graph.enter(act_of(Stage::gbuffer, "gbuffer/plain"));
+    graph.enter(pass_of(Stage::gbuffer, "gbuffer/plain"));
     graph.clear(depth, {});
     graph.clear(albedo, {});
     graph.draw("paint", opaque).writes_depth(depth).covers(albedo);
     graph.compute("sample.comp").samples("source", albedo).stores("target", picture).over({64, 32});
 
-    graph.enter(act_of(Stage::lighting, "lighting/one_sun"));
+    graph.enter(pass_of(Stage::lighting, "lighting/one_sun"));
     graph.compute("sample.comp").samples("source", albedo).stores("target", light).over({64, 32});
 
-    graph.enter(act_of(Stage::transparency, "transparency/plain"), 8);
+    graph.enter(pass_of(Stage::transparency, "transparency/plain"), 8);
     graph.compute("shade_and_count.comp").samples("source", light).stores("target", color).over({64, 32});
     graph.draw("shade", opaque).samples("source", depth).tests_depth(depth).adds_to(color);
     graph.keep(color);
@@ -103,7 +104,7 @@ Graph small_frame() {
 Graph mip_chain() {
     Graph graph;
     Image chain = graph.create("chain", {.extent = {64, 32}, .format = Format::r32f, .mips = 3});
-    graph.enter(act_of(Stage::culling, "culling/pyramid"));
+    graph.enter(pass_of(Stage::culling, "culling/pyramid"));
     graph.compute("write.comp").stores("target", chain, {.mip = 0}).over({64, 32});
     for (std::uint32_t mip = 1; mip < 3; ++mip)
         graph.compute("sample.comp")

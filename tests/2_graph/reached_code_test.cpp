@@ -1,5 +1,6 @@
 // What a driver is given of a shader: the functions that its specialization constants let run.
 #include <algorithm>
+#include <cstring>
 #include <set>
 #include <string_view>
 
@@ -59,10 +60,10 @@ TEST(ReachedCode, LightsAreLeftOutWhereNothingIsLit) {
 TEST(ReachedCode, OutputMasksOfSamplesGoWithTheFunctionThatWritesThem) {
     const Shader& fill = shader("gbuffer/octahedral/fill.frag");
     constexpr std::uint32_t op_decorate = 71, builtin = 11, sample_mask = 20;  // SPIR-V 1.6, 3.20, 3.21 and 3.49.3
-    const auto masks = [&](std::uint32_t method) {
+    const auto masks = [&](std::uint32_t technique) {
         std::vector<ConstantBits> given;
         for (const ShaderConstant& constant : fill.constants) {
-            if (constant.name == "masked") given.push_back({constant.id, method});
+            if (constant.name == "masked") given.push_back({constant.id, technique});
             if (constant.name == "mask_samples") given.push_back({constant.id, 4});
         }
         std::size_t count = 0;
@@ -79,7 +80,7 @@ TEST(ReachedCode, VolumesAreLeftOutWhereThereAreNone) {
     const Shader& draw = shader("transparency/weighted/accumulate.frag");
     const Code without = with(draw, "light_grids", 0), with_one = with(draw, "light_grids", 1);
     EXPECT_EQ(without, reached_code(draw.code, {}));
-    // Those of passes/indirect/volume_light.glsl and of what it includes, and the two of event.glsl that call them.
+    // Those of passes/indirect/volume_light.glsl and of what it includes, and the two of fragment.glsl that call them.
     EXPECT_LE(function_count(without) + 18, function_count(with_one));
 }
 

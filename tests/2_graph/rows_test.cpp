@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/graph/describe.h"
+#include "passes/graph/graph.h"
 #include "tests/2_graph/small_graphs.h"
 
 namespace strata {
@@ -42,13 +43,15 @@ TEST(DrawsInRows, ReachTheLastRowAndNoFurther) {
     last.draw({31, 1});
     EXPECT_EQ(compiled(last.graph).steps.size(), 2u);
     beyond.draw({31, 2});
-    EXPECT_EQ(refusal(beyond.graph), "paint draws 2 rows from row 31, but there are 32");
+    EXPECT_THAT(refusal(beyond.graph), FailsWith("graph.rows_out_of_range", Field("step", "paint"), Field("rows", 2),
+                                                 Field("first", 31), Field("height", 32)));
 }
 
 TEST(DrawsInRows, HaveAtLeastOneRow) {
     DrawnInRows f;
     f.draw({8, 0});
-    EXPECT_EQ(refusal(f.graph), "paint draws 0 rows from row 8, but there are 32");
+    EXPECT_THAT(refusal(f.graph), FailsWith("graph.rows_out_of_range", Field("step", "paint"), Field("rows", 0),
+                                            Field("first", 8), Field("height", 32)));
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
 // What the tests of this folder are made of: shaders that exist by description alone, and plans turned into short sentences.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "passes/graph/plan.h"
+#include "tests/support/errors.h"
 
 namespace strata {
 
@@ -20,13 +22,13 @@ const ShaderLibrary& small_shaders();
 Shape small_shape(Format = Format::rgba16f);
 Shape small_depth();
 
-/// An act at the technique's own stage.
-inline Scope act_of(Stage stage, std::string technique) { return {ScopeKind::act, stage, stage, std::move(technique)}; }
+/// A pass at the technique's own stage.
+inline Scope pass_of(Stage stage, std::string technique) { return {ScopeKind::pass, stage, stage, std::move(technique)}; }
 
 /// The plan, or a test failure with the sentence.
 Plan compiled(const Graph&);
-/// The sentence compile() fails with, or "" and a test failure.
-std::string refusal(const Graph&);
+/// What compile() fails with, if it does.
+std::optional<Error> refusal(const Graph&);
 
 /// "a: stored -> sampled" for every barrier before the n-th surviving step; parts and discards are said when there are any.
 std::vector<std::string> waits(const Plan&, std::size_t step);

@@ -1,6 +1,7 @@
 // Which functions a driver is given where constants reach a branch through parameters, variables and calls. Leaving out too
 // little costs time; leaving out too much would change pictures.
 #include <algorithm>
+#include <cstring>
 
 #include <gtest/gtest.h>
 

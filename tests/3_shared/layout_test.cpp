@@ -10,7 +10,12 @@
 #include "passes/graph/shader.h"
 #include "passes/registry.h"
 #include "passes/shaders/ltc.shared.h"
-#include "passes/shaders/scene.shared.h"
+#include "passes/shaders/scene/draws.shared.h"
+#include "passes/shaders/scene/lights.shared.h"
+#include "passes/shaders/scene/materials.shared.h"
+#include "passes/shaders/scene/shadows.shared.h"
+#include "passes/shaders/scene/view.shared.h"
+#include "passes/technique.h"
 
 namespace strata {
 namespace {

@@ -2,7 +2,6 @@
 // member, from the second element of an array so that the stride counts too.
 #include <gtest/gtest.h>
 
-#include "passes/shaders/scene.shared.h"
 #include "tests/support/test_frame.h"
 
 namespace strata {

@@ -1,4 +1,4 @@
-// What must hold of the flagship scenario whatever method draws it.
+// What must hold of the flagship scenario whatever technique draws it.
 #include <algorithm>
 
 #include <gtest/gtest.h>

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/reference/blockers.h"
 #include "passes/scene/light_blockers.h"
 #include "tests/support/blocker_cases.h"

@@ -88,7 +88,7 @@ TEST(Blockers, ADirectionalLightsShadowIsAPrism) {  // docs/algorithms/lighting.
     EXPECT_NEAR(roof.dark_area(-50), 4, 1e-9);
     roof.light.direction = glm::normalize(glm::vec3(1, 0, -1));
     EXPECT_NEAR(roof.dark_area(-2), 4, 1e-9);
-    EXPECT_FALSE(roof.lit({2.99, 0, -2})) << "two metres down it has moved two metres aside";
+    EXPECT_FALSE(roof.lit({2.99, 0, -2})) << "two meters down it has moved two meters aside";
     EXPECT_TRUE(roof.lit({.99, 0, -2}));
 }
 
@@ -147,7 +147,7 @@ TEST(Blockers, ATurnedPortalIsTurnedInItsBlocker) {
     Wall wall;
     const float s = std::numbers::sqrt2_v<float> / 2;
     wall.cut({.u = {s, s, 0}, .v = {-s, s, 0}, .half_u = .5f, .half_v = .25f});
-    EXPECT_TRUE(wall.lit({.68, .68, -1})) << "its u ends at .5 of the blocker, which is .707 on each axis a metre on";
+    EXPECT_TRUE(wall.lit({.68, .68, -1})) << "its u ends at .5 of the blocker, which is .707 on each axis a meter on";
     EXPECT_FALSE(wall.lit({.72, .72, -1}));
     EXPECT_TRUE(wall.lit({-.34, .34, -1}));
     EXPECT_FALSE(wall.lit({-.37, .37, -1}));
@@ -159,7 +159,7 @@ TEST(Blockers, PortalsThatAbutLeaveNoLineBetweenThem) {
     wall.cut({.center = {.25, 0, 0}, .half_u = .25f, .half_v = .25f});
     EXPECT_TRUE(wall.lit({0, 0, -1})) << "each is open, and the line between them belonged to neither";
     wall.frame.portals[1].center.x = .2502;
-    EXPECT_FALSE(wall.lit({.0002, 0, -1})) << "a tenth of a millimetre is not a gap, two are";
+    EXPECT_FALSE(wall.lit({.0002, 0, -1})) << "a tenth of a millimeter is not a gap, two are";
 }
 
 TEST(Blockers, APortalOpensNoBlockerButItsOwn) {  // docs/algorithms/lighting.md N16
@@ -325,7 +325,7 @@ TEST(SoftBlockers, BlurTheirEdgeOverThePenumbraOfTheSource) {
     const LightBlockers all = wall.blockers();
     const glm::dvec4 from = light_point(wall.frame, wall.light);
     const auto visible = [&](double x) { return soft_visibility(all, from, {x, 0, -1}, {.radius = .2}); };
-    // q = .2 * 1 / 2 on the blocker, twice that a metre behind it.
+    // q = .2 * 1 / 2 on the blocker, twice that a meter behind it.
     EXPECT_NEAR(visible(2), .5, 1e-3);
     EXPECT_NEAR(visible(2.1), .84375, 1e-3) << "smoothstep at three quarters";
     EXPECT_EQ(visible(2.21), 1);

@@ -14,7 +14,7 @@ namespace strata {
 namespace {
 
 using std::numbers::pi;
-const glm::dvec3 axis(0, 0, -1);  // the normal of every surface here, or the fibre
+const glm::dvec3 axis(0, 0, -1);  // the normal of every surface here, or the fiber
 
 constexpr std::array<double, 4> cosines = {1, 0.7, 0.4, 0.1}, alphas = {0.1, 0.25, 0.5, 1};
 // docs/algorithms/lighting.md T0.7 by alpha, then cosine of the eye.
@@ -291,7 +291,7 @@ TEST(Brdf, HairShinesWhiteTowardsItsTipAndInItsColorTowardsItsRoot) {
     EXPECT_NEAR(brdf_cosine(surface, toward(0.6, 2)), 0.8, 1e-12);
 }
 
-TEST(Brdf, HairsNormalFacesTheEyeAcrossTheFibre) {
+TEST(Brdf, HairsNormalFacesTheEyeAcrossTheFiber) {
     SurfacePoint surface = white(LightingModel::hair, 0.5);
     surface.position = {1, 2, 5};
     surface.normal = glm::normalize(glm::dvec3(1, 0.5, 0.2));

@@ -1,4 +1,4 @@
-// Why transparent_fragments() can be believed: events by hand, and what is dropped.
+// Why transparent_fragments() can be believed: fragments by hand, and what is dropped.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,7 +61,7 @@ TEST(TransparentFragments, CoverageDimsEmissionBehindItR4) {
     EXPECT_NEAR(composite(middle(lists), glm::dvec3(0)).x, 0.15, 1e-7);
 }
 
-TEST(TransparentFragments, FoggedEventsBlendToThePhysicalResult) {
+TEST(TransparentFragments, FoggedFragmentsBlendToThePhysicalResult) {
     // The oracle of docs/algorithms/transparency.md 0.4: f = 0.8 and s = 0.1 at the card; the black background arrives fogged as
     // 0.3.
     Frame frame = tiny::frame(8, 8);
@@ -70,9 +70,9 @@ TEST(TransparentFragments, FoggedEventsBlendToThePhysicalResult) {
     Emitter emitter;
     emitter.particles = {particle_at({0, 0, 2}, 0.5f)};
     frame.emitters = {emitter};
-    const Fragment event = middle(transparent_fragments(frame, tiny::no_depth(frame)))[0];
-    EXPECT_NEAR(event.color.x, 0.5 * (0.8 * 1 + 0.1), 1e-7);
-    EXPECT_NEAR(composite(std::span(&event, 1), glm::dvec3(0.3)).x, 0.60, 1e-7);
+    const Fragment fragment = middle(transparent_fragments(frame, tiny::no_depth(frame)))[0];
+    EXPECT_NEAR(fragment.color.x, 0.5 * (0.8 * 1 + 0.1), 1e-7);
+    EXPECT_NEAR(composite(std::span(&fragment, 1), glm::dvec3(0.3)).x, 0.60, 1e-7);
 }
 
 TEST(TransparentFragments, FogByDistanceThickensTowardsTheRim) {
@@ -82,11 +82,11 @@ TEST(TransparentFragments, FogByDistanceThickensTowardsTheRim) {
     tiny::material(frame, draw).base_color = {0, 0, 0, 0.5f};
     const FragmentLists lists = transparent_fragments(frame, tiny::no_depth(frame));
     for (std::uint32_t x = 0; x < 8; ++x) {
-        const auto events = lists.at(x, 1, 0);
-        ASSERT_EQ(events.size(), 1u);
+        const auto fragments = lists.at(x, 1, 0);
+        ASSERT_EQ(fragments.size(), 1u);
         const double fog = std::exp(-double(0.3f) * glm::length(2.0 * pixel_ray(frame, x + 0.5, 1.5)));
-        EXPECT_NEAR(events[0].fog, fog, 1e-7);
-        EXPECT_NEAR(events[0].color.x, 0.5 * (1 - fog), 1e-7);
+        EXPECT_NEAR(fragments[0].fog, fog, 1e-7);
+        EXPECT_NEAR(fragments[0].color.x, 0.5 * (1 - fog), 1e-7);
     }
 }
 
@@ -99,8 +99,8 @@ TEST(TransparentFragments, ColoredGlassHidesOfTheFogWhatItAbsorbs) {
     const std::uint32_t draw = tiny::add_quad(frame, everywhere, 2, AlphaMode::blend);
     tiny::material(frame, draw).base_color = {0, 0, 0, 1};
     tiny::material(frame, draw).transmission = {1, 0.2f, 0.2f};
-    const Fragment event = middle(transparent_fragments(frame, tiny::no_depth(frame)))[0];
-    const glm::dvec3 seen = composite(std::span(&event, 1), glm::dvec3(0.5 * 1 + 0.3));
+    const Fragment fragment = middle(transparent_fragments(frame, tiny::no_depth(frame)))[0];
+    const glm::dvec3 seen = composite(std::span(&fragment, 1), glm::dvec3(0.5 * 1 + 0.3));
     EXPECT_NEAR(seen.x, 0.8, 1e-7);
     EXPECT_NEAR(seen.y, 0.24, 1e-7);
 }
@@ -110,10 +110,10 @@ TEST(TransparentFragments, PremultipliedLightWithoutCoverageIsKept) {
     const std::uint32_t draw = tiny::add_quad(frame, everywhere, 2, AlphaMode::premultiplied);
     tiny::material(frame, draw).base_color = {2, 1, 0.5f, 0};
     const FragmentLists lists = transparent_fragments(frame, tiny::no_depth(frame));
-    const auto events = middle(lists);
-    ASSERT_EQ(events.size(), 1u);
-    EXPECT_NEAR(events[0].color.x, 2, 1e-6);
-    EXPECT_EQ(events[0].transmittance, glm::dvec3(1));
+    const auto fragments = middle(lists);
+    ASSERT_EQ(fragments.size(), 1u);
+    EXPECT_NEAR(fragments[0].color.x, 2, 1e-6);
+    EXPECT_EQ(fragments[0].transmittance, glm::dvec3(1));
 }
 
 TEST(TransparentFragments, FogAddsToNothingThatCoversNothing) {
@@ -123,11 +123,11 @@ TEST(TransparentFragments, FogAddsToNothingThatCoversNothing) {
     const std::uint32_t draw = tiny::add_quad(frame, everywhere, 2, AlphaMode::additive);
     tiny::material(frame, draw).base_color = {1, 0.5f, 0.25f, 0.5f};
     tiny::material(frame, draw).emissive = glm::vec3(1);
-    const Fragment event = middle(transparent_fragments(frame, tiny::no_depth(frame)))[0];
-    EXPECT_LT(glm::length(event.emission - 0.5 * 0.5 * glm::dvec3(2, 1.5, 1.25)), 1e-6);
-    EXPECT_EQ(event.color, glm::dvec3(0));
-    EXPECT_EQ(event.alpha, 0);
-    EXPECT_EQ(event.transmittance, glm::dvec3(1));
+    const Fragment fragment = middle(transparent_fragments(frame, tiny::no_depth(frame)))[0];
+    EXPECT_LT(glm::length(fragment.emission - 0.5 * 0.5 * glm::dvec3(2, 1.5, 1.25)), 1e-6);
+    EXPECT_EQ(fragment.color, glm::dvec3(0));
+    EXPECT_EQ(fragment.alpha, 0);
+    EXPECT_EQ(fragment.transmittance, glm::dvec3(1));
 }
 
 TEST(TransparentFragments, BlendAndPremultipliedDifferInWhoMultiplies) {
@@ -156,8 +156,8 @@ TEST(TransparentFragments, MeshesAreLitByTheSunAndTheSkyWithoutShadows) {
     Material& material = tiny::material(frame, tiny::add_quad(frame, everywhere, 2, AlphaMode::blend));
     material.lighting_model = LightingModel::lambert;
     material.base_color = {0.5f, 1, 0, 0.25f};
-    const Fragment event = middle(transparent_fragments(frame, tiny::no_depth(frame)))[0];
-    EXPECT_LT(glm::length(event.color - 0.25 * glm::dvec3(0.5, 1, 0) * (3 / pi + 0.4)), 1e-7);
+    const Fragment fragment = middle(transparent_fragments(frame, tiny::no_depth(frame)))[0];
+    EXPECT_LT(glm::length(fragment.color - 0.25 * glm::dvec3(0.5, 1, 0) * (3 / pi + 0.4)), 1e-7);
 }
 
 TEST(TransparentFragments, SoftParticlesFadeBeforeTheSurfaceBehind) {
@@ -170,9 +170,9 @@ TEST(TransparentFragments, SoftParticlesFadeBeforeTheSurfaceBehind) {
     ReferenceImage depth = tiny::no_depth(frame);
     EXPECT_NEAR(middle(transparent_fragments(frame, depth))[0].alpha, 0.8, 1e-7);
     for (auto& texel : depth.texels) texel.x = 0.125 / 4;
-    const Fragment event = middle(transparent_fragments(frame, depth))[0];
-    EXPECT_NEAR(event.alpha, 0.2, 1e-7);
-    EXPECT_NEAR(event.depth, 3.25, 1e-9);
+    const Fragment fragment = middle(transparent_fragments(frame, depth))[0];
+    EXPECT_NEAR(fragment.alpha, 0.2, 1e-7);
+    EXPECT_NEAR(fragment.depth, 3.25, 1e-9);
 }
 
 TEST(TransparentFragments, OfInterfacesAreInFrontOfTheWorldAndTestedWhereTheyAre) {
@@ -205,7 +205,7 @@ TEST(TransparentFragments, OnlyWhatIsInFrontOfTheDepthRemains) {
     EXPECT_TRUE(transparent_fragments(frame, depth).undecided(4, 5)) << "equal depths hang on rounding";
 }
 
-TEST(TransparentFragments, FaintEventsAreDroppedButLayersOfOnePercentAreNot) {
+TEST(TransparentFragments, FaintFragmentsAreDroppedButLayersOfOnePercentAreNot) {
     Frame frame = tiny::frame(8, 8);
     Emitter emitter;
     for (int i = 0; i < 200; ++i) emitter.particles.push_back(particle_at({0, 0, 2 + 0.01 * i}, 0.01f));

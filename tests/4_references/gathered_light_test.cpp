@@ -13,6 +13,7 @@
 #include "passes/indirect/truth.h"
 #include "passes/reference/lights.h"
 #include "passes/reference/standard_error.h"
+#include "passes/stage_input.h"
 #include "tests/4_references/tiny_frame.h"
 
 namespace strata {

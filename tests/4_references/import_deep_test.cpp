@@ -12,6 +12,7 @@
 #include "passes/transparency/truth.h"
 #include "tests/1_capture/temporary_file.h"
 #include "tests/support/deep_exr.h"
+#include "tests/support/errors.h"
 
 namespace strata {
 namespace {
@@ -152,12 +153,12 @@ TEST(DeepImport, SplitsOpaqueVolumesIntoOpaqueOnesAndSharesTheirColor) {
 }
 
 TEST(DeepImport, FillsInMissingChannelsAndSaysSo) {
-    DeepSource grey{.channels = {"Y", "A", "Z"}}, black{.channels = {"A", "Z"}}, opaque{.channels = {"R", "Z"}};
-    grey.pixels = {{{.5f, .5f, 2}}};
+    DeepSource gray{.channels = {"Y", "A", "Z"}}, black{.channels = {"A", "Z"}}, opaque{.channels = {"R", "Z"}};
+    gray.pixels = {{{.5f, .5f, 2}}};
     black.pixels = {{{.5f, 2}}};
     opaque.pixels = {{{.5f, 2}}};
-    EXPECT_DOUBLE_EQ(red_of(frame_of(grey)), 1);
-    EXPECT_THAT(frame_of(grey).warnings, Contains(HasSubstr("Y is taken")));
+    EXPECT_DOUBLE_EQ(red_of(frame_of(gray)), 1);
+    EXPECT_THAT(frame_of(gray).warnings, Contains(HasSubstr("Y is taken")));
     EXPECT_DOUBLE_EQ(red_of(frame_of(black)), .5);
     EXPECT_THAT(frame_of(black).warnings, Contains(HasSubstr("the samples are black")));
     EXPECT_DOUBLE_EQ(red_of(frame_of(opaque)), .5);
@@ -273,7 +274,7 @@ TEST(DeepImport, ReadsThePartThatIsAskedFor) {
     const auto missing = imported_deep(file, {.part = "middle"});
     ASSERT_FALSE(missing);
     EXPECT_EQ(missing.error().fault, Fault::usage);
-    EXPECT_THAT(missing.error().sentence, HasSubstr("0 'near', 1 'far'"));
+    EXPECT_THAT(missing, FailsWith("import.deep.part_missing", Field("part", "middle"), Field("parts", "0 'near', 1 'far'")));
 }
 
 TEST(DeepImport, KeepsProductsInDoubleBehindTwoHundredLayers) {

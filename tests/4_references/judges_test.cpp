@@ -16,6 +16,7 @@
 #include "passes/reference/place_code.h"
 #include "passes/reference/shade.h"
 #include "passes/reference/standard_error.h"
+#include "passes/stage_input.h"
 #include "passes/transparency/judge.h"
 #include "tests/4_references/tiny_frame.h"
 
@@ -25,11 +26,11 @@ namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN(), endless = std::numeric_limits<double>::infinity();
 
-using Figures = std::map<std::string, double>;
+using Metrics = std::map<std::string, double>;
 
-Figures by_name(const std::vector<Figure>& figures) {
-    Figures named;
-    for (const Figure& figure : figures) named[figure.name] = figure.value;
+Metrics by_name(const std::vector<Metric>& metrics) {
+    Metrics named;
+    for (const Metric& metric : metrics) named[metric.name] = metric.value;
     return named;
 }
 
@@ -91,10 +92,10 @@ TEST(lighting_judge, gives_the_rmse_in_radiance_relative_and_the_worst) {
     Pair pair;
     pair.got.at(1, 0, 1).y = 0;
     const Frame frame = tiny::frame(2, 1);
-    const Figures figures = by_name(lighting_judge({{"light", pair.got}}, {{"light", pair.truth}}, {frame, {}}));
-    EXPECT_DOUBLE_EQ(figures.at("rmse"), std::sqrt(9. / 12));
-    EXPECT_DOUBLE_EQ(figures.at("relative rmse"), std::sqrt(1. / 12));
-    EXPECT_DOUBLE_EQ(figures.at("worst"), 3);
+    const Metrics metrics = by_name(lighting_judge({{"light", pair.got}}, {{"light", pair.truth}}, {frame, {}}));
+    EXPECT_DOUBLE_EQ(metrics.at("rmse"), std::sqrt(9. / 12));
+    EXPECT_DOUBLE_EQ(metrics.at("relative rmse"), std::sqrt(1. / 12));
+    EXPECT_DOUBLE_EQ(metrics.at("worst"), 3);
 }
 
 TEST(indirect_judge, tells_light_where_there_is_none_from_other_errors) {
@@ -107,12 +108,12 @@ TEST(indirect_judge, tells_light_where_there_is_none_from_other_errors) {
     const auto judged = [&] {
         return by_name(indirect_judge({{"indirect", pair.got}}, {{"indirect", pair.truth}}, {frame, {}}));
     };
-    Figures figures = judged();
-    EXPECT_DOUBLE_EQ(figures.at("rmse"), std::sqrt((9 + 0.25 + 1) / 12));
-    EXPECT_DOUBLE_EQ(figures.at("relative rmse"), std::sqrt((9 + 0.25 + 1) / 12 / (9. / 4)));
-    EXPECT_DOUBLE_EQ(figures.at("worst"), 3);
-    EXPECT_DOUBLE_EQ(figures.at("leak"), 0.25 / 3);
-    EXPECT_DOUBLE_EQ(figures.at("dark"), 100 * 2. / 3);
+    Metrics metrics = judged();
+    EXPECT_DOUBLE_EQ(metrics.at("rmse"), std::sqrt((9 + 0.25 + 1) / 12));
+    EXPECT_DOUBLE_EQ(metrics.at("relative rmse"), std::sqrt((9 + 0.25 + 1) / 12 / (9. / 4)));
+    EXPECT_DOUBLE_EQ(metrics.at("worst"), 3);
+    EXPECT_DOUBLE_EQ(metrics.at("leak"), 0.25 / 3);
+    EXPECT_DOUBLE_EQ(metrics.at("dark"), 100 * 2. / 3);
     pair.got.at(0, 0, 1) = {0, 0, 0, 1};
     EXPECT_EQ(judged().at("leak"), 0);
     pair.got.at(0, 0, 1).x = nan_value;
@@ -141,10 +142,10 @@ TEST(edges_judge, tells_missed_edges_from_needless_ones) {
     truth.texels[0].x = truth.texels[1].x = 1;
     got.texels[1].x = got.texels[2].x = got.texels[3].x = 1;
     const Frame frame = tiny::frame(4, 1, 4);
-    const Figures figures = by_name(edges_judge({{"edges", got}}, {{"edges", truth}}, {frame, {}}));
-    EXPECT_EQ(figures.at("missed"), 25);
-    EXPECT_EQ(figures.at("needless"), 50);
-    EXPECT_EQ(figures.at("shaded per sample"), 75);
+    const Metrics metrics = by_name(edges_judge({{"edges", got}}, {{"edges", truth}}, {frame, {}}));
+    EXPECT_EQ(metrics.at("missed"), 25);
+    EXPECT_EQ(metrics.at("needless"), 50);
+    EXPECT_EQ(metrics.at("shaded per sample"), 75);
 }
 
 TEST(edges_judge, counts_decided_pixels_only) {
@@ -155,10 +156,10 @@ TEST(edges_judge, counts_decided_pixels_only) {
     truth.undecided = {true, false, false, false};
     got.undecided = {false, true, false, false};
     const Frame frame = tiny::frame(4, 1, 4);
-    const Figures figures = by_name(edges_judge({{"edges", got}}, {{"edges", truth}}, {frame, {}}));
-    EXPECT_EQ(figures.at("missed"), 0);
-    EXPECT_EQ(figures.at("needless"), 0);
-    EXPECT_EQ(figures.at("shaded per sample"), 50) << "of two pixels that are decided";
+    const Metrics metrics = by_name(edges_judge({{"edges", got}}, {{"edges", truth}}, {frame, {}}));
+    EXPECT_EQ(metrics.at("missed"), 0);
+    EXPECT_EQ(metrics.at("needless"), 0);
+    EXPECT_EQ(metrics.at("shaded per sample"), 50) << "of two pixels that are decided";
 }
 
 namespace {
@@ -172,7 +173,7 @@ ImageSet decoded_surfaces() {
     return images;
 }
 
-Figures gbuffer_figures(const ImageSet& got, const ImageSet& truth) {
+Metrics gbuffer_metrics(const ImageSet& got, const ImageSet& truth) {
     const Frame frame = tiny::frame(4, 1);
     return by_name(gbuffer_judge(got, truth, {frame, {}}));
 }
@@ -180,29 +181,29 @@ Figures gbuffer_figures(const ImageSet& got, const ImageSet& truth) {
 }  // namespace
 
 TEST(gbuffer_judge, finds_nothing_in_equal_surfaces) {
-    for (const auto& [name, value] : gbuffer_figures(decoded_surfaces(), decoded_surfaces()))
+    for (const auto& [name, value] : gbuffer_metrics(decoded_surfaces(), decoded_surfaces()))
         EXPECT_NEAR(value, 0, 1e-12) << name;
 }
 
-TEST(gbuffer_judge, gives_each_attribute_a_figure_of_its_own) {
+TEST(gbuffer_judge, gives_each_attribute_a_metric_of_its_own) {
     const ImageSet truth = decoded_surfaces();
     ImageSet got = truth;
     const double angle = std::numbers::pi / 6;
     got.at("surface_normal").texels[2] = {std::sin(angle), 0, -std::cos(angle), 6};
     got.at("surface_color").texels[0] = {.5, .8, .5, .2};
     got.at("surface_material").texels[1] = {3, .9, .4, 0};
-    const Figures figures = gbuffer_figures(got, truth);
-    EXPECT_NEAR(figures.at("normal angle rms"), 30 / std::sqrt(3), 1e-9);
-    EXPECT_NEAR(figures.at("normal angle worst"), 30, 1e-9);
-    EXPECT_NEAR(figures.at("normal angle mean"), 10, 1e-9);
-    EXPECT_NEAR(figures.at("position along"), .2 / std::sqrt(3), 1e-9);
-    EXPECT_NEAR(figures.at("position across"), 0, 1e-9);
-    EXPECT_NEAR(figures.at("base color rmse"), std::sqrt(.09 / 9), 1e-9);
-    EXPECT_NEAR(figures.at("roughness rmse"), .3 / std::sqrt(3), 1e-9);
-    EXPECT_NEAR(figures.at("metallic rmse"), .4 / std::sqrt(3), 1e-9);
-    EXPECT_NEAR(figures.at("occlusion rmse"), .1 / std::sqrt(3), 1e-9);
-    EXPECT_NEAR(figures.at("other lighting model"), 100. / 3, 1e-9);
-    EXPECT_EQ(figures.at("coverage differs"), 0);
+    const Metrics metrics = gbuffer_metrics(got, truth);
+    EXPECT_NEAR(metrics.at("normal angle rms"), 30 / std::sqrt(3), 1e-9);
+    EXPECT_NEAR(metrics.at("normal angle worst"), 30, 1e-9);
+    EXPECT_NEAR(metrics.at("normal angle mean"), 10, 1e-9);
+    EXPECT_NEAR(metrics.at("position along"), .2 / std::sqrt(3), 1e-9);
+    EXPECT_NEAR(metrics.at("position across"), 0, 1e-9);
+    EXPECT_NEAR(metrics.at("base color rmse"), std::sqrt(.09 / 9), 1e-9);
+    EXPECT_NEAR(metrics.at("roughness rmse"), .3 / std::sqrt(3), 1e-9);
+    EXPECT_NEAR(metrics.at("metallic rmse"), .4 / std::sqrt(3), 1e-9);
+    EXPECT_NEAR(metrics.at("occlusion rmse"), .1 / std::sqrt(3), 1e-9);
+    EXPECT_NEAR(metrics.at("other lighting model"), 100. / 3, 1e-9);
+    EXPECT_EQ(metrics.at("coverage differs"), 0);
 }
 
 /// A depth that is right at the wrong place of the pixel: a quarter of a pixel aside is an error across the ray, and no other.
@@ -213,10 +214,10 @@ TEST(gbuffer_judge, tells_positions_beside_the_ray_from_those_along_it) {
     const Frame frame = tiny::frame(4, 1);
     const glm::dvec3 right = pixel_ray(frame, 1.5, .5), wrong = pixel_ray(frame, 1.75, .5);
     const double sine = glm::length(glm::cross(right, wrong)) / glm::dot(right, right);
-    const Figures figures = gbuffer_figures(got, truth);
-    EXPECT_NEAR(figures.at("position across"), sine / std::sqrt(3), 1e-9);
+    const Metrics metrics = gbuffer_metrics(got, truth);
+    EXPECT_NEAR(metrics.at("position across"), sine / std::sqrt(3), 1e-9);
     const double along = glm::dot(wrong - right, right) / glm::dot(right, right);
-    EXPECT_NEAR(figures.at("position along"), std::abs(along) / std::sqrt(3), 1e-9);
+    EXPECT_NEAR(metrics.at("position along"), std::abs(along) / std::sqrt(3), 1e-9);
 }
 
 TEST(PlaceCode, KeepsStandardSamplesExactlyAndOthersTo8192thsOfAPixel) {
@@ -235,9 +236,9 @@ TEST(gbuffer_judge, counts_surfaces_that_are_missing_or_too_many_and_leaves_out_
     ImageSet truth = decoded_surfaces(), got = truth;
     got.at("surface_normal").texels[0] = glm::dvec4(0);
     got.at("surface_normal").texels[3] = {0, 0, -1, 5};
-    EXPECT_EQ(gbuffer_figures(got, truth).at("coverage differs"), 2);
+    EXPECT_EQ(gbuffer_metrics(got, truth).at("coverage differs"), 2);
     truth.at("surface_normal").undecided = {true, false, false, false};
-    EXPECT_EQ(gbuffer_figures(got, truth).at("coverage differs"), 1);
+    EXPECT_EQ(gbuffer_metrics(got, truth).at("coverage differs"), 1);
 }
 
 TEST(gbuffer_judge, takes_nan_for_an_infinite_error) {
@@ -245,14 +246,14 @@ TEST(gbuffer_judge, takes_nan_for_an_infinite_error) {
     for (const int channel : {0, 1, 2}) {
         ImageSet got = truth;
         got.at("surface_normal").texels[1][channel] = nan_value;
-        EXPECT_EQ(gbuffer_figures(got, truth).at("normal angle rms"), endless) << channel;
-        EXPECT_EQ(gbuffer_figures(got, truth).at("normal angle worst"), endless) << channel;
+        EXPECT_EQ(gbuffer_metrics(got, truth).at("normal angle rms"), endless) << channel;
+        EXPECT_EQ(gbuffer_metrics(got, truth).at("normal angle worst"), endless) << channel;
     }
     ImageSet got = truth;
     got.at("surface_color").texels[1].y = nan_value;
-    EXPECT_EQ(gbuffer_figures(got, truth).at("base color rmse"), endless);
+    EXPECT_EQ(gbuffer_metrics(got, truth).at("base color rmse"), endless);
     got.at("surface_normal").texels[1].w = nan_value;
-    EXPECT_EQ(gbuffer_figures(got, truth).at("coverage differs"), 1) << "a depth that is NaN is no surface";
+    EXPECT_EQ(gbuffer_metrics(got, truth).at("coverage differs"), 1) << "a depth that is NaN is no surface";
 }
 
 /// NaN is displayed as black: a black pixel of the truth must not excuse it.
@@ -260,12 +261,12 @@ TEST(transparency_judge, takes_nan_for_wrong_wherever_it_is) {
     ReferenceImage truth(4, 1), got(4, 1);
     got.texels[3].y = nan_value;
     const Frame frame = tiny::frame(4, 1);
-    const Figures figures = by_name(transparency_judge({{"color", got}}, {{"color", truth}}, {frame, {}}));
-    EXPECT_EQ(figures.at("rmse"), endless);
-    EXPECT_EQ(figures.at("worst"), endless);
-    EXPECT_EQ(figures.at("P99"), endless);
-    EXPECT_EQ(figures.at("over 10 %"), 25);
-    EXPECT_EQ(figures.at("off by 1/255"), 25);
+    const Metrics metrics = by_name(transparency_judge({{"color", got}}, {{"color", truth}}, {frame, {}}));
+    EXPECT_EQ(metrics.at("rmse"), endless);
+    EXPECT_EQ(metrics.at("worst"), endless);
+    EXPECT_EQ(metrics.at("P99"), endless);
+    EXPECT_EQ(metrics.at("over 10 %"), 25);
+    EXPECT_EQ(metrics.at("off by 1/255"), 25);
 }
 
 TEST(transparency_judge, sees_every_channel_and_the_last_texel_of_the_last_layer) {
@@ -274,13 +275,13 @@ TEST(transparency_judge, sees_every_channel_and_the_last_texel_of_the_last_layer
         pair.got.at(1, 0, 1)[channel] = 6;
         Frame frame = tiny::frame(2, 1);
         frame.film.white = 8;  // both are below it
-        const Figures figures = by_name(transparency_judge({{"color", pair.got}}, {{"color", pair.truth}}, {frame, {}}));
-        EXPECT_DOUBLE_EQ(figures.at("rmse"), std::sqrt(9. / 12));
-        EXPECT_DOUBLE_EQ(figures.at("worst"), 3);
-        EXPECT_DOUBLE_EQ(figures.at("bias"), 3. / 12);
-        EXPECT_DOUBLE_EQ(figures.at("P99"), 3 / 3.01);
-        EXPECT_EQ(figures.at("over 10 %"), 25);
-        EXPECT_EQ(figures.at("off by 1/255"), 25);
+        const Metrics metrics = by_name(transparency_judge({{"color", pair.got}}, {{"color", pair.truth}}, {frame, {}}));
+        EXPECT_DOUBLE_EQ(metrics.at("rmse"), std::sqrt(9. / 12));
+        EXPECT_DOUBLE_EQ(metrics.at("worst"), 3);
+        EXPECT_DOUBLE_EQ(metrics.at("bias"), 3. / 12);
+        EXPECT_DOUBLE_EQ(metrics.at("P99"), 3 / 3.01);
+        EXPECT_EQ(metrics.at("over 10 %"), 25);
+        EXPECT_EQ(metrics.at("off by 1/255"), 25);
     }
 }
 

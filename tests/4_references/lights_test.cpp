@@ -79,7 +79,7 @@ Light any_area_light(LightType type, tiny::Random& random) {
 }
 
 TEST(AreaLights, TubesHaveTheIrradianceOfT03) {
-    // Thin, parallel, one metre above, half as long on each side; what the ends add falls with the radius.
+    // Thin, parallel, one meter above, half as long on each side; what the ends add falls with the radius.
     const Light thin = sized(lamp(LightType::tube, 1), 1e-5f, {1, 0});
     EXPECT_NEAR(irradiance(thin) / (2 * 1e-5), 1.28539816, 1e-5);
     EXPECT_NEAR(exact_irradiance(thin) / (2 * 1e-5), 1.28539816, 1e-5);
@@ -327,7 +327,7 @@ TEST(Lights, WithoutRangeOrIntensityAreNotSubmittedN7) {
 }
 
 TEST(Lights, DarksTakeAwayInAnyOrderT71) {
-    // One watt per steradian from one metre gives 1 / pi.
+    // One watt per steradian from one meter gives 1 / pi.
     const auto sum = [](std::initializer_list<double> intensities) {
         double total = 0;
         for (const double intensity : intensities) {
@@ -382,7 +382,7 @@ TEST(LightFeatures, AreTheBitsALightNeeds) {
     Frame frame = tiny::frame(8, 8);
     frame.lights = {light, lamp(LightType::tube, 1), lamp(LightType::disc, 1)};
     frame.lights[2].range = 0;
-    EXPECT_EQ(light_features(frame), feature_omni | feature_blockers | feature_portals | feature_tube);
+    EXPECT_EQ(light_features(frame, light_list(frame)), feature_omni | feature_blockers | feature_portals | feature_tube);
 }
 
 }  // namespace

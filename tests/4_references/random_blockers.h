@@ -2,7 +2,6 @@
 // than a light may have, lights in a blocker's plane, portals that abut, lean, or lie beside their blocker.
 #pragma once
 
-#include "capture_format/frame.h"
 #include "tests/4_references/tiny_frame.h"
 
 namespace strata::tiny {

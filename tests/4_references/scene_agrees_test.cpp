@@ -184,7 +184,7 @@ struct Agreement {
 
 /// Compares what a frame's lights are given with what the reference says of them; false where that differs.
 bool agree_on_blockers(const Frame& frame, Agreement& found) {
-    const LightRecords given = light_records(frame);
+    const LightRecords given = light_records(frame, light_list(frame));
     const std::vector<Light> shining = shining_lights(frame);
     if (given.lights.size() != shining.size() || given.blockers.size() != frame.blockers.size()) return false;
     for (std::size_t i = 0; i < shining.size(); ++i) {

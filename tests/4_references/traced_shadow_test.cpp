@@ -7,6 +7,7 @@
 
 #include "passes/shadows/judge.h"
 #include "passes/shadows/truth.h"
+#include "passes/stage_input.h"
 #include "tests/4_references/tiny_frame.h"
 
 namespace strata {
@@ -118,11 +119,11 @@ TEST(traced_shadow, judges_light_where_shadow_should_be) {
     const StageInput input{stand.frame, stand.before};
     const ImageSet truth = shadows_truth(input);
     const ImageSet lit = {{"visibility", ReferenceImage(size, size, 1, glm::dvec4(1))}};
-    const auto figures = shadows_judge(lit, truth, input);
-    EXPECT_EQ(figures[0].name, "rmse");
-    EXPECT_EQ(figures[0].value, 0.125);  // 16 of 1024 pixels
-    EXPECT_EQ(figures[1].value, 100.0 / 64);
-    EXPECT_EQ(figures[2].value, 0);
+    const auto metrics = shadows_judge(lit, truth, input);
+    EXPECT_EQ(metrics[0].name, "rmse");
+    EXPECT_EQ(metrics[0].value, 0.125);  // 16 of 1024 pixels
+    EXPECT_EQ(metrics[1].value, 100.0 / 64);
+    EXPECT_EQ(metrics[2].value, 0);
 }
 
 }  // namespace strata

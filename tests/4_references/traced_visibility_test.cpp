@@ -13,6 +13,7 @@
 #include "passes/occlusion/truth.h"
 #include "passes/reference/estimated_image.h"
 #include "passes/reference/place_code.h"
+#include "passes/stage_input.h"
 #include "tests/4_references/tiny_frame.h"
 
 namespace strata {
@@ -176,15 +177,15 @@ TEST(occlusion_judge, tells_the_size_the_sign_and_what_ambient_light_makes_of_an
     got.at(0, 0).x = .8;
     got.at(1, 0).x = .1;
     got.at(3, 0).x = 7;
-    const auto figures = occlusion_judge({{"occlusion", got}}, {{"occlusion", truth}}, {frame, before});
-    ASSERT_EQ(figures.size(), 4u);
-    EXPECT_NEAR(figures[0].value, std::sqrt((.09 + .16) / 3), 1e-12) << figures[0].name;
-    EXPECT_NEAR(figures[1].value, .4, 1e-12) << figures[1].name;
-    EXPECT_NEAR(figures[2].value, -.1 / 3, 1e-12) << figures[2].name;
-    EXPECT_NEAR(figures[3].value, .3 / std::sqrt(.5), 1e-12) << "black surfaces show no ambient light";
+    const auto metrics = occlusion_judge({{"occlusion", got}}, {{"occlusion", truth}}, {frame, before});
+    ASSERT_EQ(metrics.size(), 4u);
+    EXPECT_NEAR(metrics[0].value, std::sqrt((.09 + .16) / 3), 1e-12) << metrics[0].name;
+    EXPECT_NEAR(metrics[1].value, .4, 1e-12) << metrics[1].name;
+    EXPECT_NEAR(metrics[2].value, -.1 / 3, 1e-12) << metrics[2].name;
+    EXPECT_NEAR(metrics[3].value, .3 / std::sqrt(.5), 1e-12) << "black surfaces show no ambient light";
     got.at(0, 0).x = NAN;
-    for (const Figure& figure : occlusion_judge({{"occlusion", got}}, {{"occlusion", truth}}, {frame, before}))
-        EXPECT_EQ(figure.value, HUGE_VAL) << figure.name;
+    for (const Metric& metric : occlusion_judge({{"occlusion", got}}, {{"occlusion", truth}}, {frame, before}))
+        EXPECT_EQ(metric.value, HUGE_VAL) << metric.name;
     truth = ReferenceImage(4, 1, 1, glm::dvec4(0, 0, 0, 1));
     got = ReferenceImage(4, 1, 1, glm::dvec4(.5, 0, 0, 1));
     EXPECT_NEAR(occlusion_judge({{"occlusion", got}}, {{"occlusion", truth}}, {frame, before})[3].value, .5 * std::sqrt(2. / 3),

@@ -128,7 +128,7 @@ TEST(TransparentScenarios, AnExplosionBurnsInsideItsSmoke) {
     const Features features = frame_features(frame);
     for (const Feature feature : {Feature::emissive, Feature::distortion, Feature::soft_particles})
         EXPECT_TRUE(features.has(feature)) << name(feature);
-    EXPECT_FALSE(features.has(Feature::additive)) << "fire covers, so that every method can be held against it";
+    EXPECT_FALSE(features.has(Feature::additive)) << "fire covers, so that every technique can be held against it";
     // In the middle of the picture fire has smoke on both sides.
     const FragmentLists fragments = all_fragments(frame);
     const auto burns = [](const Fragment& fragment) { return fragment.emission.x > 0; };

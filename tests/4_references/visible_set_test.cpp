@@ -3,6 +3,7 @@
 
 #include "passes/culling/judge.h"
 #include "passes/culling/truth.h"
+#include "passes/stage_input.h"
 #include "tests/4_references/tiny_frame.h"
 
 namespace strata {
@@ -55,12 +56,12 @@ TEST(visible_set, judges_holes_before_waste) {
     ImageSet drawn = truth;
     drawn.at("visible").texels[0].x = 1;
     drawn.at("visible").texels[2].x = 0;
-    const auto figures = culling_judge(drawn, truth, input);
-    EXPECT_EQ(figures[0].name, "wrongly hidden");
-    EXPECT_EQ(figures[0].value, 1);
-    EXPECT_EQ(figures[1].value, 1);
-    EXPECT_EQ(figures[2].value, 2);
-    EXPECT_EQ(figures[3].value, 2);
+    const auto metrics = culling_judge(drawn, truth, input);
+    EXPECT_EQ(metrics[0].name, "wrongly hidden");
+    EXPECT_EQ(metrics[0].value, 1);
+    EXPECT_EQ(metrics[1].value, 1);
+    EXPECT_EQ(metrics[2].value, 2);
+    EXPECT_EQ(metrics[3].value, 2);
 }
 
 }  // namespace strata

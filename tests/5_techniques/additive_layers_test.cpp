@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
-#include "passes/registry.h"
+#include "passes/frame_images.h"
 #include "replay/images/image_io.h"
 #include "tests/support/session.h"
 

@@ -5,7 +5,9 @@
 
 #include "captures/scenarios/frame_builder.h"
 #include "captures/scenarios/shapes.h"
+#include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "tests/support/session.h"
 
 namespace strata {

@@ -8,7 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
+#include "passes/graph/graph.h"
 #include "passes/registry.h"
+#include "passes/scene/scene_facts.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/images/image_io.h"
 #include "replay/scene/device_scene.h"
 #include "replay/session/frame_plan.h"
@@ -31,7 +36,7 @@ Frame without_bad_numbers() {
     Frame frame = bad_frame();
     for (Emitter& emitter : frame.emitters) {
         for (Particle& particle : emitter.particles) {
-            // Not erased: a method may draw lots by a particle's place in the frame.
+            // Not erased: a technique may draw lots by a particle's place in the frame.
             particle.alpha = std::isfinite(particle.alpha) && particle.alpha > 0 ? particle.alpha : 0;
             for (int c = 0; c < 3; ++c) {
                 zero_unless_finite(particle.color[c]);
@@ -113,7 +118,7 @@ HostImage color_of(const Frame& frame, const Technique& technique, const ShaderL
     const std::vector<std::string> uses{std::string(technique.name)};
     const auto declared =
         must(declare_frame(graph, images, must(choose(frame, chosen(uses))), shared_device().info().capabilities));
-    EXPECT_FALSE(declared.acts.empty());
+    EXPECT_FALSE(declared.passes.empty());
     graph.keep(images.color);
     return shared_executor().run(must(compile(graph, library)), {}).images.at(images.color.id);
 }

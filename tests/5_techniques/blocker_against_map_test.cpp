@@ -4,9 +4,11 @@
 // the centers of its texels.
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/reference/shade.h"
 #include "passes/scene/shadow_views.h"
 #include "tests/5_techniques/light_scenes.h"
@@ -132,7 +134,7 @@ public:
             least = std::min(least, distance_to_segment(at, in_texels(map, corners[i]), in_texels(map, corners[(i + 1) % 4])));
         return least;
     }
-    /// Edge of a texel where the map sees the floor, metres across the map's axis.
+    /// Edge of a texel where the map sees the floor, meters across the map's axis.
     double texel_at(const glm::dvec3& point) const {
         const ShadowView& map = serving(point);
         return map.texel * clip(map, point).w;
@@ -160,7 +162,7 @@ struct Compared {
     std::size_t lit = 0, dark = 0;             ///< beyond the edge, as the blocker has it
     std::size_t at_edge = 0, partial = 0;      ///< within it, and of these neither lit nor dark by the map
     std::size_t apart = 0;                     ///< beyond the edge, and not the same
-    double least_texel = 1e9, most_texel = 0;  ///< metres on the floor
+    double least_texel = 1e9, most_texel = 0;  ///< meters on the floor
 };
 
 /// Of every pixel that the light reaches. `map` draws the quad of `mapped`, which is the one of `tested` or not.

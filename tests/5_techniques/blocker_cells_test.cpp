@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "tests/support/agreement.h"
 #include "tests/support/blocker_cases.h"
 #include "tests/support/session.h"

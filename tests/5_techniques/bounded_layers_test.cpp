@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
+#include "passes/frame_images.h"
 #include "passes/transparency/a_buffer/model.h"
 #include "tests/support/session.h"
 #include "tests/support/test_frame.h"
@@ -72,7 +74,7 @@ TEST(DepthPeelingOnDevice, DrawsNothingAfterAPassThatFoundNothing) {
 }
 
 TEST(DepthPeelingOnDevice, LosesOneOfTwoCoincidentCards) {
-    // A failure of the method: half of the wall shows where a quarter should. The card submitted last is the one that is left.
+    // A failure of the technique: half of the wall shows where a quarter should. The card submitted last is the one that is left.
     for (const float last : {0.f, 1.f}) {
         Frame frame = stack_of_cards(2, .5f);
         frame.draws[1].to_world = frame.draws[2].to_world;

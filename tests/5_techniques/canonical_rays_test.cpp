@@ -1,11 +1,14 @@
-// Four rays through known fragments (docs/algorithms/transparency.md 9.3): the area between T(z) of a method and the exact steps,
-// on the device through a probe and in double by the method's model.
+// Four rays through known fragments (docs/algorithms/transparency.md 9.3): the area between T(z) of a technique and the exact
+// steps, on the device through a probe and in double by the technique's model.
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "passes/transparency/moments/model.h"
+#include "passes/transparency/moments/moments.shared.h"
 #include "passes/transparency/voxel/volume/column.h"
 #include "passes/transparency/wavelet/model.h"
 #include "replay/probe/probe.h"
@@ -18,11 +21,11 @@ using namespace transparency;
 
 constexpr double nearest = 1, farthest = 50;
 
-/// Depth d of the range as 0 to 1, which these methods divide evenly in ln z.
-struct RayEvent {
+/// Depth d of the range as 0 to 1, which these techniques divide evenly in ln z.
+struct RayFragment {
     double d, alpha;
 };
-using Ray = std::vector<RayEvent>;
+using Ray = std::vector<RayFragment>;
 
 Ray one_card() { return {{.43, .9}}; }
 Ray five_cards() { return {{.1, .5}, {.3, .5}, {.5005, .5}, {.7, .5}, {.9, .5}}; }
@@ -39,11 +42,11 @@ Ray smoke_before_a_wall() {
 }
 std::array<Ray, 4> rays() { return {one_card(), five_cards(), even_smoke(), smoke_before_a_wall()}; }
 
-struct MethodOfTable {
-    const char* method;
+struct VariantOfTable {
+    const char* variant;
     std::array<double, 4> area;  ///< of rays A to D
 };
-constexpr MethodOfTable table[] = {
+constexpr VariantOfTable table[] = {
     {"transparency/moments kind=power4", {.0003, .0954, .0866, .0444}},
     {"transparency/moments kind=power6", {.0003, .0693, .0650, .0200}},
     {"transparency/moments kind=power8", {.0007, .0502, .0523, .0210}},
@@ -59,29 +62,29 @@ constexpr double tolerance = 2e-3;  // docs/algorithms/transparency.md 9.3
 
 ProbedStack stack_of(const Ray& ray) {
     ProbedStack stack{.nearest = nearest, .farthest = farthest};
-    for (const RayEvent& event : ray)
-        stack.fragments.push_back({.depth = nearest * std::pow(farthest / nearest, event.d),
-                                   .transmittance = glm::dvec3(1 - event.alpha),
-                                   .alpha = event.alpha,
+    for (const RayFragment& fragment : ray)
+        stack.fragments.push_back({.depth = nearest * std::pow(farthest / nearest, fragment.d),
+                                   .transmittance = glm::dvec3(1 - fragment.alpha),
+                                   .alpha = fragment.alpha,
                                    .submission = static_cast<std::uint32_t>(stack.fragments.size())});
     return stack;
 }
 
 TEST(CanonicalRays, TheDeviceLeavesTheAreaOfTheTable) {
     ProbeOptions options{.samples = 400, .from = nearest, .to = farthest};
-    for (const MethodOfTable& row : table) options.methods.emplace_back(row.method);
+    for (const VariantOfTable& row : table) options.variants.emplace_back(row.variant);
     for (std::size_t r = 0; r < rays().size(); ++r) {
         const Probe made = must(probe(session_of_scenarios(), stack_of(rays()[r]), options));
         for (std::size_t m = 0; m < std::size(table); ++m)
-            EXPECT_NEAR(made.curves[m].figures.l1_logarithmic, table[m].area[r], tolerance) << made.curves[m].method << ", ray "
+            EXPECT_NEAR(made.curves[m].metrics.l1_logarithmic, table[m].area[r], tolerance) << made.curves[m].variant << ", ray "
                                                                                             << "ABCD"[r];
     }
 }
 
 double exact(const Ray& ray, double d) {
     double through = 1;
-    for (const RayEvent& event : ray)
-        if (event.d < d) through *= 1 - event.alpha;
+    for (const RayFragment& fragment : ray)
+        if (fragment.d < d) through *= 1 - fragment.alpha;
     return through;
 }
 
@@ -98,10 +101,11 @@ TEST(CanonicalRays, TheModelOfMomentsLeavesTheSameArea) {
         for (std::size_t r = 0; r < rays().size(); ++r) {
             const Ray ray = rays()[r];
             const MomentsParams params{.kind = kind, .storage = storage_single, .bias = 1, .overestimation = .25f};
-            std::vector<WarpedEvent> events;
-            for (const RayEvent& event : ray) events.push_back({2 * event.d - 1, std::min(-std::log1p(-event.alpha), 10.)});
-            const double made = area(ray, [&](double d) { return transmittance_in_double(params, events, 2 * d - 1); });
-            EXPECT_NEAR(made, table[kind].area[r], tolerance) << table[kind].method << ", ray "
+            std::vector<WarpedFragment> projected;
+            for (const RayFragment& fragment : ray)
+                projected.push_back({2 * fragment.d - 1, std::min(-std::log1p(-fragment.alpha), 10.)});
+            const double made = area(ray, [&](double d) { return transmittance_in_double(params, projected, 2 * d - 1); });
+            EXPECT_NEAR(made, table[kind].area[r], tolerance) << table[kind].variant << ", ray "
                                                               << "ABCD"[r];
         }
 }
@@ -111,11 +115,11 @@ TEST(CanonicalRays, TheModelOfWaveletsLeavesTheSameArea) {
         for (std::size_t r = 0; r < rays().size(); ++r) {
             const Ray ray = rays()[r];
             const double last = double(2u << rank) - 1;
-            std::vector<CellEvent> events;
-            for (const RayEvent& event : ray) events.push_back({event.d * last, -std::log1p(-event.alpha)});
-            const std::vector<double> coefficients = haar_coefficients(rank, events);
+            std::vector<CellFragment> projected;
+            for (const RayFragment& fragment : ray) projected.push_back({fragment.d * last, -std::log1p(-fragment.alpha)});
+            const std::vector<double> coefficients = haar_coefficients(rank, projected);
             const double made = area(ray, [&](double d) { return std::exp(-haar_depth(coefficients, d * last)); });
-            EXPECT_NEAR(made, table[5 + rank].area[r], tolerance) << table[5 + rank].method << ", ray "
+            EXPECT_NEAR(made, table[5 + rank].area[r], tolerance) << table[5 + rank].variant << ", ray "
                                                                   << "ABCD"[r];
         }
 }
@@ -124,15 +128,15 @@ TEST(CanonicalRays, AColumnOfVoxelsThatIsReadOneSliceInFrontIsWavelets) {
     for (std::uint32_t rank = 1; rank <= 4; ++rank)
         for (const Ray& ray : rays()) {
             const std::uint32_t slices = 2u << rank;
-            std::vector<CellEvent> events;
+            std::vector<CellFragment> projected;
             std::vector<double> integral(slices, 0.);
-            for (const RayEvent& event : ray) {
-                events.push_back({event.d * (slices - 1), -std::log1p(-event.alpha)});
-                const SlicePlace place = slice_place(events.back().place + .5, slices, splatting_linear);
+            for (const RayFragment& fragment : ray) {
+                projected.push_back({fragment.d * (slices - 1), -std::log1p(-fragment.alpha)});
+                const SlicePlace place = slice_place(projected.back().place + .5, slices, splatting_linear);
                 for (std::uint32_t k = place.slice; k < slices; ++k)
-                    integral[k] += (k == place.slice ? 1 - place.share : 1) * events.back().optical_depth;
+                    integral[k] += (k == place.slice ? 1 - place.share : 1) * projected.back().optical_depth;
             }
-            const std::vector<double> coefficients = haar_coefficients(rank, events);
+            const std::vector<double> coefficients = haar_coefficients(rank, projected);
             for (int i = 0; i <= 100; ++i) {
                 const double place = i / 100. * (slices - 1);
                 EXPECT_NEAR(sampled_integral(integral, place + .5 - 1, sampling_linear), haar_depth(coefficients, place), 1e-12);
@@ -153,27 +157,27 @@ PixelAt deep_pixel(const FragmentLists& lists) {
     return at;
 }
 
-TEST(Probe, OfAnExactMethodIsTheExactStepFunction) {
-    std::size_t exact_methods = 0;
+TEST(Probe, OfAnExactVariantIsTheExactStepFunction) {
+    std::size_t exact_variants = 0;
     for (const char* scenario : {"three_panes", "glass_and_smoke"}) {
         const Request request = on_scenario(scenario);
         const PixelAt at = deep_pixel(*must(session_of_scenarios().transparent_fragments(request)));
         for (const Technique* technique : techniques_of(Stage::transparency)) {
             if (!technique->abilities.stands_in_for_truth) continue;
-            ++exact_methods;
-            const Probe made = must(probe(session_of_scenarios(), request, at, {.methods = {std::string(technique->name)}}));
+            ++exact_variants;
+            const Probe made = must(probe(session_of_scenarios(), request, at, {.variants = {std::string(technique->name)}}));
             for (std::size_t i = 0; i < made.depths.size(); ++i)
                 for (int c = 0; c < 3; ++c)
                     ASSERT_NEAR(made.curves[0].through[i][c], made.exact[i][c], 1e-5)
                         << technique->name << " in " << scenario << " at " << made.depths[i] << " m";
-            EXPECT_LT(made.curves[0].figures.event_weighted, 1e-5) << technique->name << " in " << scenario;
+            EXPECT_LT(made.curves[0].metrics.fragment_weighted, 1e-5) << technique->name << " in " << scenario;
         }
     }
-    EXPECT_GT(exact_methods, 0u);
+    EXPECT_GT(exact_variants, 0u);
 }
 
-TEST(Probe, TellsTheSlicesOfAMethodThatHasSome) {
-    const ProbeOptions options{.methods = {"transparency/voxel volume=dense slices=64", "transparency/voxel", table[0].method},
+TEST(Probe, TellsTheSlicesOfAVariantThatHasSome) {
+    const ProbeOptions options{.variants = {"transparency/voxel volume=dense slices=64", "transparency/voxel", table[0].variant},
                                .samples = 64,
                                .from = nearest,
                                .to = farthest};
@@ -197,7 +201,7 @@ TEST(Probe, TellsTheSlicesOfAMethodThatHasSome) {
 TEST(Probe, ACaptureIsTheSameAfterwards) {
     const Request request = on_scenario("three_panes");
     const strata::Run before = must(session_of_scenarios().run(request));
-    must(probe(session_of_scenarios(), stack_of(one_card()), {.methods = {table[0].method}}));
+    must(probe(session_of_scenarios(), stack_of(one_card()), {.variants = {table[0].variant}}));
     const strata::Run after = must(session_of_scenarios().run(request));
     EXPECT_EQ(before.images.at("display").texels, after.images.at("display").texels);
 }
@@ -208,8 +212,8 @@ TEST(Probe, SaysWhatEveryTechniqueLetsThroughOrWhyNot) {
     const Probe made = must(probe(session_of_scenarios(), request, at, {.samples = 64}));
     ASSERT_EQ(made.curves.size(), techniques_of(Stage::transparency).size());
     for (const ProbeCurve& curve : made.curves) {
-        EXPECT_NE(curve.not_supported.empty(), curve.through.empty()) << curve.method;
-        for (const glm::dvec3& t : curve.through) EXPECT_TRUE(std::isfinite(t.x + t.y + t.z)) << curve.method;
+        EXPECT_NE(curve.not_supported.empty(), curve.through.empty()) << curve.variant;
+        for (const glm::dvec3& t : curve.through) EXPECT_TRUE(std::isfinite(t.x + t.y + t.z)) << curve.variant;
     }
 }
 

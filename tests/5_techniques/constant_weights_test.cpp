@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "tests/support/session.h"
 
 namespace strata {

@@ -1,11 +1,14 @@
-// Materials that distort what is behind them (docs/algorithms/transparency.md 6.13): every method sees the background sum d T(z)
-// away.
+// Materials that distort what is behind them (docs/algorithms/transparency.md 6.13): every technique sees the background sum d
+// T(z) away.
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
+#include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "passes/transparency/truth.h"
 #include "replay/images/image_io.h"
 #include "tests/support/session.h"
@@ -84,18 +87,18 @@ TEST_P(Distortion, CostsNothingWhereNothingDistorts) {
     EXPECT_GT(steps({bending}), steps({plain}));
 }
 
-std::vector<std::string_view> methods() {
+std::vector<std::string_view> names_of_techniques() {
     std::vector<std::string_view> names;
     for (const Technique& technique : techniques())
         if (technique.stage == Stage::transparency) names.push_back(technique.name);
     return names;
 }
 
-std::string bending_method_name(const testing::TestParamInfo<std::string_view>& info) {
+std::string bending_technique_name(const testing::TestParamInfo<std::string_view>& info) {
     return std::string(info.param.substr(info.param.find('/') + 1));
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Distortion, testing::ValuesIn(methods()), bending_method_name);
+INSTANTIATE_TEST_SUITE_P(Techniques, Distortion, testing::ValuesIn(names_of_techniques()), bending_technique_name);
 
 /// Offsets are summed with the T(z) of their fragments: .02 behind t = .5 and .04 before it.
 TEST(DistortionTruth, SumsOffsetsByTransmittance) {

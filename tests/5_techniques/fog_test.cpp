@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "tests/support/agreement.h"
 #include "tests/support/endless_ground.h"
 
@@ -56,7 +58,7 @@ TEST(Fog, AtEverySettingIsWhatTheModelSays) {
 /// Radiance relative to the truth.
 double fog_error(Session& session, const std::vector<std::string>& sets) {
     const Accuracy accuracy = must(session.judge({.choices = chosen({}, sets)}, Stage::combine, Against::truth));
-    return accuracy.method.at(2).value;
+    return accuracy.technique_errors.at(2).value;
 }
 
 TEST(Fog, IsExactAlongTheRecordedPathAloneAndARampIsNot) {

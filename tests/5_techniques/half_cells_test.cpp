@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/gbuffer/codes.h"
 #include "passes/indirect/lpv/propagation/propagation_model.h"
 #include "passes/registry.h"

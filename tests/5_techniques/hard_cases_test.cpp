@@ -1,5 +1,5 @@
-// The hard cases of transparency: every method holds them, or fails by as much as it says, neither more nor less. Of its defaults
-// the method itself says it; of its other settings hard_cases.csv does.
+// The hard cases of transparency: every technique holds them, or fails by as much as it says, neither more nor less. Of its
+// defaults the technique itself says it; of its other settings hard_cases.csv does.
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "replay/report/hard_cases.h"
 #include "tests/support/accept.h"
 #include "tests/support/session.h"
@@ -26,11 +27,11 @@ std::map<std::string, std::string> settings_of(std::string_view point) {
     return settings;
 }
 
-/// What a technique's points are measured for: of a number one value, of a choice the first and the last. All of them would take
-/// minutes. Not resolutions: on cards that fill the picture they change nothing.
+/// What a technique's variants are measured for: of a number one value, of a choice the first and the last. All of them would
+/// take minutes. Not resolutions: on cards that fill the picture they change nothing.
 Values wanted_values(const Technique& technique) {
     Values wanted;
-    for (const std::string_view point : technique.points)
+    for (const std::string_view point : technique.variants)
         for (const auto& [key, value] : settings_of(point))
             if (std::ranges::count(wanted[key], value) == 0) wanted[key].push_back(value);
     wanted.erase("resolution");
@@ -41,7 +42,7 @@ Values wanted_values(const Technique& technique) {
     return wanted;
 }
 
-/// The technique at its defaults, and each of the wanted values of its points once.
+/// The technique at its defaults, and each of the wanted values of its variants once.
 std::vector<Variant> measured_settings(const Technique& technique) {
     std::vector<Variant> kept;
     Values wanted = wanted_values(technique);
@@ -67,7 +68,7 @@ void expect_as_documented(const HardCaseRow& row, std::size_t index) {
     EXPECT_LE(outcome.model_worst, tolerance_at(technique.tolerance, row.settings, hard_case.name).worst) << "GPU against model";
     if (!row.settings.empty()) return;  // the record below
     const bool as_said = outcome.verdict == HardOutcome::Verdict::holds || outcome.verdict == HardOutcome::Verdict::documented;
-    EXPECT_TRUE(as_said) << name(outcome.verdict) << ", " << outcome.error << " against at most " << hard_case.accept
+    EXPECT_TRUE(as_said) << name(outcome.verdict) << ", " << outcome.error << " against at most " << hard_case.tolerance
                          << "; documented: " << outcome.documented;
 }
 
@@ -133,12 +134,12 @@ Errors errors_of(const HardCaseRow& row) {
 
 /// "H5 is 0.12 where at most 0.02 holds, recorded: 0.17", or nothing. What holds may not fail for being within the slack.
 std::string departure(const HardCase& hard_case, std::optional<double> now, std::optional<double> recorded) {
-    const auto holds = [&](double error) { return error <= hard_case.accept; };
+    const auto holds = [&](double error) { return error <= hard_case.tolerance; };
     const bool both = now && recorded;
     if (both ? as_recorded(*now, *recorded) && holds(*now) == holds(*recorded) : now.has_value() == recorded.has_value())
         return "";
     const auto text = [](std::optional<double> error) { return error ? fmt::format("{:.3g}", *error) : "not applicable"; };
-    return fmt::format("\n  {} is {} where at most {} holds, recorded: {}", id(hard_case), text(now), hard_case.accept,
+    return fmt::format("\n  {} is {} where at most {} holds, recorded: {}", id(hard_case), text(now), hard_case.tolerance,
                        text(recorded));
 }
 
@@ -149,7 +150,7 @@ std::vector<Variant> default_settings(const Technique& technique) {
     return rows;
 }
 
-/// Rows of points, but for those of other techniques, which stay.
+/// Rows of variants, but for those of other techniques, which stay.
 void expect_as_recorded(const Technique& technique, const HardCaseReport& report) {
     Record record = read_record();
     Record recorded;
@@ -181,7 +182,7 @@ HardCaseReport expect_documented(const std::vector<Variant>& rows) {
     return report;
 }
 
-/// A test for each method: whichever processes these run in, nothing is measured twice.
+/// A test for each technique: whichever processes these run in, nothing is measured twice.
 class HardCases : public testing::TestWithParam<const Technique*> {};
 class ExhaustiveHardCases : public testing::TestWithParam<const Technique*> {};
 
@@ -191,13 +192,13 @@ TEST_P(ExhaustiveHardCases, AreHeldOrFailedAsDocumentedAndRecordedAtEveryPoint) 
     expect_as_recorded(*GetParam(), expect_documented(measured_settings(*GetParam())));
 }
 
-std::string method_name(const testing::TestParamInfo<const Technique*>& info) {
+std::string technique_name(const testing::TestParamInfo<const Technique*>& info) {
     const std::string_view technique = info.param->name;
     return std::string(technique.substr(technique.find('/') + 1));
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, HardCases, testing::ValuesIn(techniques_of(Stage::transparency)), method_name);
-INSTANTIATE_TEST_SUITE_P(Methods, ExhaustiveHardCases, testing::ValuesIn(techniques_of(Stage::transparency)), method_name);
+INSTANTIATE_TEST_SUITE_P(Techniques, HardCases, testing::ValuesIn(techniques_of(Stage::transparency)), technique_name);
+INSTANTIATE_TEST_SUITE_P(Techniques, ExhaustiveHardCases, testing::ValuesIn(techniques_of(Stage::transparency)), technique_name);
 
 TEST(HardCaseRecord, IsOfTechniquesThatExist) {
     const Record record = read_record();
@@ -206,7 +207,7 @@ TEST(HardCaseRecord, IsOfTechniquesThatExist) {
 }
 
 TEST(HardCaseRecord, AsksForWorseAndBetterAndForWhatHeldNoMore) {
-    const HardCase hard_case{.name = "H0 a case", .accept = .1};
+    const HardCase hard_case{.name = "H0 a case", .tolerance = .1};
     EXPECT_EQ(departure(hard_case, .52, .5), "");
     EXPECT_EQ(departure(hard_case, {}, {}), "");
     EXPECT_EQ(departure(hard_case, .4, .5), "\n  H0 is 0.4 where at most 0.1 holds, recorded: 0.5");

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/registry.h"
 #include "tests/5_techniques/light_scenes.h"
 #include "tests/support/not_finite.h"
@@ -98,7 +99,7 @@ Frame moved(Frame frame, const glm::dvec3& by) {
     return frame;
 }
 
-TEST_P(HardLights, TenKilometresFromTheOriginAreLitTheSame) {  // docs/algorithms/lighting.md N18: within 1e-3
+TEST_P(HardLights, TenKilometersFromTheOriginAreLitTheSame) {  // docs/algorithms/lighting.md N18: within 1e-3
     for (const std::string_view scenario : {"blocker_rooms", "light_types"}) {
         const Frame here = at_most_96(scenario, 1);
         const ReferenceImage near = in_double(lit_by(here).images.at("light"));

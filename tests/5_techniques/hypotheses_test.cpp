@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
 #include "captures/hard_cases.h"
+#include "passes/frame_images.h"
 #include "replay/images/image_io.h"
 #include "replay/probe/probe.h"
 #include "tests/support/session.h"
@@ -14,7 +16,7 @@
 namespace strata {
 namespace {
 
-/// A method and its settings.
+/// A technique and its settings.
 struct Way {
     std::string technique;
     std::vector<std::string> sets;
@@ -82,10 +84,10 @@ double area_on_even_smoke(std::uint32_t slices, std::uint32_t bits) {
     for (std::uint32_t i = 0; i < 100; ++i)
         stack.fragments.push_back(
             {.depth = std::pow(50, (i + .5) / 100), .transmittance = glm::dvec3(1 - alpha), .alpha = alpha, .submission = i});
-    const std::string method =
+    const std::string variant =
         fmt::format("voxel volume=dense curve=linear linear=1 splatting=point sampling=point slices={} bits={}", slices, bits);
-    const Probe made = must(probe(session_of_scenarios(), stack, {.methods = {method}, .samples = 1600, .from = 1, .to = 50}));
-    return made.curves.front().figures.l1_logarithmic;
+    const Probe made = must(probe(session_of_scenarios(), stack, {.variants = {variant}, .samples = 1600, .from = 1, .to = 50}));
+    return made.curves.front().metrics.l1_logarithmic;
 }
 
 // docs/algorithms/transparency.md 9.7 (ii)
@@ -100,7 +102,7 @@ TEST(Hypotheses, OfThinLayersEightBitsLoseMoreThanFewSlices) {
 }
 
 // docs/algorithms/transparency.md 9.7 (iv)
-TEST(Hypotheses, WhatIsTakenOutOfItsOwnEventRemovesNineTenthsOfTheErrorOfACardBehindSmoke) {
+TEST(Hypotheses, WhatIsTakenOutOfItsOwnFragmentRemovesNineTenthsOfTheErrorOfACardBehindSmoke) {
     const auto cases = hard_cases();
     const auto h14b = std::ranges::find_if(cases, [](const HardCase& c) { return c.name.starts_with("H14b"); });
     ASSERT_NE(h14b, cases.end());

@@ -4,8 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
-#include "passes/registry.h"
+#include "passes/frame_images.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -31,7 +32,7 @@ double seen_by(Session& session, const std::string& technique, std::vector<std::
     return texel(run.images.at("color"), 5, 9).x;
 }
 
-TEST(InterfaceLayers, AreBlendedInTheirOrderByEveryMethodThatHasOne) {
+TEST(InterfaceLayers, AreBlendedInTheirOrderByEveryTechniqueThatHasOne) {
     const auto session = session_of({windows()});
     for (const char* exact :
          {"sorted_lists", "alpha_blend", "depth_peeling", "k_buffer", "multi_layer", "adaptive", "exact_function"})

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "capture_format/frame.h"
 #include "replay/images/host_image.h"
 #include "tests/support/session.h"
 

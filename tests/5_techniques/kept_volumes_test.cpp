@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/indirect/lpv/grids_model.h"
 #include "tests/5_techniques/kept_volumes.h"
 
@@ -157,7 +158,7 @@ TEST(KeptVolumes, AreTheSameInAnyOrderOfFrames) {
         EXPECT_TRUE(kept(*session, i).indirect.texels == wanted[i].texels) << i;
 }
 
-/// A cascade of cells of half a metre around an eye in the right room that stands so many cells away from its first place.
+/// A cascade of cells of half a meter around an eye in the right room that stands so many cells away from its first place.
 Frame rooms_with_a_cascade(const glm::ivec3& cells_away) {
     Frame frame = still_rooms()[1];
     frame.light_volumes = {{.kind = VolumeKind::cascaded_global,
@@ -271,7 +272,7 @@ TEST(KeptVolumes, AreKeptWhereTheEyeMoves) {
     expect_alike_but_for_rounding(moved.indirect, lit_anew(*session, 1));
 }
 
-/// Frames of the rooms with the door closed whose cells have middles so many metres off the plane of the wall between them, seen
+/// Frames of the rooms with the door closed whose cells have middles so many meters off the plane of the wall between them, seen
 /// by an eye that moves.
 std::vector<Frame> rooms_around_middles(double off_plane) {
     std::vector<Frame> frames;

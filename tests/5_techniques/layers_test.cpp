@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
 #include "passes/registry.h"
 #include "tests/support/agreement.h"
@@ -22,7 +23,7 @@ namespace {
 
 constexpr std::array layer_counts{1u, 2u, 8u, 31u, 32u, 33u, 64u, 300u};
 
-/// So many cards between 2 and 8 m, submitted in random order: two neighbours are at least 1 cm apart. Coverage falls with their
+/// So many cards between 2 and 8 m, submitted in random order: two neighbors are at least 1 cm apart. Coverage falls with their
 /// number: 300 layers let 2 % through, and none is so thin that half floats cannot add it.
 Frame frame_of_layers(std::uint32_t count) {
     std::mt19937 random(count);
@@ -38,7 +39,7 @@ Frame frame_of_layers(std::uint32_t count) {
     return frame_of_cards(cards, 16);
 }
 
-/// A session of their own, which ends with them: the pipelines of all points take much of the host's memory on a CPU driver.
+/// A session of their own, which ends with them: the pipelines of all variants take much of the host's memory on a CPU driver.
 class ShuffledLayers : public testing::TestWithParam<Technique> {
 protected:
     static void SetUpTestSuite() {
@@ -60,7 +61,7 @@ std::vector<std::string> lines_of(std::string_view point) {
 TEST_P(ShuffledLayers, AreWhatTheModelSaysAtEveryNumberOfThem) {
     const Technique& technique = GetParam();
     std::vector<std::string_view> points{""};
-    points.insert(points.end(), technique.points.begin(), technique.points.end());
+    points.insert(points.end(), technique.variants.begin(), technique.variants.end());
     for (std::size_t frame = 0; frame < layer_counts.size(); ++frame)  // outside: a session has one frame loaded
         for (const std::string_view point : points) {
             SCOPED_TRACE(fmt::format("{} layers, {}", layer_counts[frame], point));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
 #include "passes/registry.h"
 #include "tests/support/agreement.h"

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
+#include "passes/frame_images.h"
 #include "passes/lens/bloom/bloom_model.h"
 #include "passes/lens/exposure/exposure_model.h"
 #include "tests/support/session.h"
@@ -151,7 +153,7 @@ TEST(LensAndFilm, ExposureFollowsTheTimeAndStartsAnewWhereItDoesNotGoOn) {
     const auto session = night(adapting, {10, 10.25, 10.5, 9});
     const Frame frame = scenario_frames("lamp_at_night").front();
     const double luminance = *lens::measured_luminance(frame, color_of(*session), lens::exposure_exponential, 1);
-    const auto target = [&](double grey) { return lens::exposure_target(luminance, .7, grey); };
+    const auto target = [&](double gray) { return lens::exposure_target(luminance, .7, gray); };
     const std::string bright = "exposure_grey=2";
     EXPECT_NEAR(exposure_of(*session, 0), target(1), 1e-4) << "a frame that is replayed again";
     const double after_a_quarter = target(1) + (target(2) - target(1)) * (1 - std::exp(-.5));

@@ -6,9 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/lens/depth_of_field/focus_model.h"
 #include "passes/lens/exposure/exposure_model.h"
 #include "passes/lens/judge.h"
+#include "passes/lens/lens.shared.h"
+#include "passes/stage_input.h"
 #include "tests/support/session.h"
 #include "tests/support/thin_lens.h"
 

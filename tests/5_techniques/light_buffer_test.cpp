@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "tests/support/agreement.h"
 
 namespace strata {

@@ -6,7 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "capture_format/frame.h"
+#include "passes/stages.h"
 #include "replay/images/image_io.h"
+#include "replay/scene/scene_records.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/session.h"
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/reference/decoded.h"
 #include "replay/images/host_image.h"
 #include "tests/5_techniques/lit_patch.h"

@@ -8,6 +8,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "capture_format/frame.h"
 #include "passes/reference/decoded.h"
 #include "replay/images/host_image.h"
 #include "tests/support/random_numbers.h"

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/reference/decoded.h"
 #include "passes/registry.h"
 #include "replay/images/host_image.h"

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/indirect/lpv/grids_model.h"
 #include "passes/indirect/lpv/model.h"
 #include "passes/indirect/lpv/occlusion/occlusion_model.h"
@@ -46,7 +47,7 @@ Pixel pixel_of(const Frame& frame, const HostImage& normals, std::uint32_t x, st
     return {frame.view.origin, glm::transpose(glm::dmat3(frame.view.to_view)) * at_1.position, depth > 0 ? depth : HUGE_VAL};
 }
 
-/// By the light of a cell a metre wide along a normal, or on a surface that faces there.
+/// By the light of a cell a meter wide along a normal, or on a surface that faces there.
 using Shading = double (*)(const glm::dvec4& light, const glm::dvec3& normal);
 
 /// W/sr: SH of two bands.
@@ -56,7 +57,7 @@ double sent(const glm::dvec4& light, const glm::dvec3& n) {
 }
 
 /// Irradiance / pi by irradiance=cell. Of a cell's light a lobe max(0, cosine) around the direction that arrives is
-/// sqrt(pi) / 2 l0 - sqrt(pi / 3) l1 . n, in W; a cube of a metre shows 1.5 m^2 in the mean.
+/// sqrt(pi) / 2 l0 - sqrt(pi / 3) l1 . n, in W; a cube of a meter shows 1.5 m^2 in the mean.
 double received(const glm::dvec4& light, const glm::dvec3& n) {
     const double along = glm::dot(glm::dvec3(light.y, light.z, light.w), n);
     return std::max(0., (std::sqrt(pi) / 2 * light.x - std::sqrt(pi / 3) * along) / 1.5 / pi);

@@ -8,7 +8,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "tests/5_techniques/light_volume_scenes.h"
 #include "tests/support/agreement.h"
 #include "tests/support/not_finite.h"
@@ -101,8 +103,8 @@ const std::vector<HardVolumes>& hard_volumes() {
         {"cascades", box_in_cascades()},
         {"overlapping_volumes", box_in({fixed_volume({1.65, 1.9, 2.8}, 1.8f, 9), fixed_volume({3.6, 2.5, 3}, 2.4f, 8)})},
         {"one_cell", box_in({fixed_volume({2.78, 2.74, 2.8}, 3.2f, 1)})},
-        {"cells_of_5_centimetres", box_in_small_cells()},
-        {"cells_of_8_metres", box_in({fixed_volume({2.78, 2.74, 2.8}, 16, 4)})},
+        {"cells_of_5_centimeters", box_in_small_cells()},
+        {"cells_of_8_meters", box_in({fixed_volume({2.78, 2.74, 2.8}, 16, 4)})},
         {"sixty_four_iterations", rooms_with_lamp_at({-2.3, 2.1, -1.7}), {"iterations=64"}},
         {"a_lamp_within_a_wall", rooms_with_lamp_at({0.03, 1.2, -1})},
         {"a_lamp_on_the_corner_of_cells", rooms_with_lamp_at({-2.3, 2.3, -1.6})},

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/registry.h"
 #include "tests/5_techniques/light_volume_scenes.h"
 #include "tests/support/agreement.h"
@@ -178,7 +179,7 @@ TEST(LightVolumes, AreTheSameInEveryRun) {
     EXPECT_TRUE(first.images.at("indirect").texels == again.images.at("indirect").texels);
 }
 
-TEST(LightVolumes, AreTheSameTenKilometresAway) {
+TEST(LightVolumes, AreTheSameTenKilometersAway) {
     Frame near = two_rooms()[1], far = near;
     const glm::dvec3 away(1e4, -2e3, 1e4);
     far.view.origin += away;

@@ -10,8 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/graph/graph.h"
 #include "passes/graph/plan.h"
-#include "passes/transparency/lists/event_lists.h"
+#include "passes/transparency/lists/pixel_lists.h"
 #include "tests/support/device.h"
 #include "tests/support/session.h"
 
@@ -32,7 +33,7 @@ std::vector<T> values_of(const std::vector<std::byte>& bytes) {
 
 struct Unsorted {
     std::vector<ListKey> keys;
-    std::vector<ListSubmission> submissions;  ///< by ListKey::event
+    std::vector<ListSubmission> submissions;  ///< by ListKey::fragment
 };
 
 class ListsOnDevice : public testing::Test {
@@ -55,7 +56,7 @@ protected:
         const std::uint32_t groups = (cells + cells_per_group - 1) / cells_per_group;
         const Band band{0, 1, cells, 1, 0};
         Graph graph;
-        transparency::EventLists lists{.starts = graph.create("starts", cells * sizeof(std::uint32_t)),
+        transparency::PixelLists lists{.starts = graph.create("starts", cells * sizeof(std::uint32_t)),
                                        .ends = import(graph, "counts", counts),
                                        .group_starts = graph.create("group starts", groups * sizeof(std::uint32_t))};
         Buffer counters = graph.create("counters", sizeof(transparency::ListCounters));
@@ -75,7 +76,7 @@ protected:
             ends.push_back(starts.back() + length);
         }
         Graph graph;
-        transparency::EventLists lists{
+        transparency::PixelLists lists{
             .starts = import(graph, "starts", starts), .ends = import(graph, "ends", ends), .layers = std::ranges::max(lengths)};
         transparency::create_keys(graph, lists, band.pool);
         graph.copy(import(graph, "keys", unsorted.keys), lists.keys);
@@ -102,7 +103,7 @@ Unsorted random_keys(std::size_t count, std::uint32_t depths) {
     Unsorted made;
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t depth = below(depths), draw = below(3);
-        made.keys.push_back({.z = .25f * float(depth), .event = i});
+        made.keys.push_back({.z = .25f * float(depth), .fragment = i});
         made.submissions.push_back({.draw = draw, .primitive = i ^ 0x55u});
     }
     return made;
@@ -121,9 +122,9 @@ void ListsOnDevice::expect_all_sorted(const std::vector<std::uint32_t>& lengths,
         std::size_t first = 0;
         for (const std::uint32_t length : lengths) {
             std::ranges::sort(std::span(wanted).subspan(first, length), {},
-                              [&](const ListKey& key) { return rank(key, unsorted.submissions[key.event], order); });
+                              [&](const ListKey& key) { return rank(key, unsorted.submissions[key.fragment], order); });
             for (std::size_t i = first; i < first + length; ++i)
-                ASSERT_EQ(got[i].event, wanted[i].event) << "at " << i - first << " of a list of " << length;
+                ASSERT_EQ(got[i].fragment, wanted[i].fragment) << "at " << i - first << " of a list of " << length;
             first += length;
         }
     }

@@ -6,11 +6,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/reference/shade.h"
 #include "passes/registry.h"
 #include "replay/images/host_image.h"
 #include "tests/5_techniques/light_volume_scenes.h"
 #include "tests/support/agreement.h"
+#include "tests/support/errors.h"
 #include "tests/support/print.h"
 #include "tests/support/session.h"
 
@@ -234,20 +236,17 @@ TEST(LitGlass, IsRefusedWhereTheDeviceCannotHoldItsVolumes) {
     const auto session = session_of({rooms_in_cascades(200, 1), rooms_in_cascades(256, 8)});
     if (session->device().max_buffer_bytes > 256u << 20 || session->device().max_image_extent > 65'536)
         GTEST_SKIP() << "this device holds 8 million cells";
-    const auto sentence_for = [&](std::size_t frame) {
-        const auto run = session->run(request_of(frame, {"indirect/lpv"}));
-        if (run) return std::string("it ran");
-        EXPECT_EQ(run.error().fault, Fault::device_lacks);
-        return run.error().sentence;
-    };
-    EXPECT_THAT(sentence_for(0), testing::HasSubstr("MiB at once")) << "8 million cells of 60 bytes";
-    EXPECT_THAT(sentence_for(1), testing::HasSubstr("'volume_light' is an image of 4096 x 98305 texels")) << "134 million cells";
+    const auto run = [&](std::size_t frame) { return session->run(request_of(frame, {"indirect/lpv"})); };
+    EXPECT_THAT(run(0), FailsWith("device.buffer_too_large")) << "8 million cells of 60 bytes";
+    EXPECT_THAT(run(1),
+                FailsWith("device.image_too_large", Field("image", "volume_light"), Field("width", 4096), Field("height", 98305)))
+        << "134 million cells";
 }
 
 class LitGlassBy : public testing::TestWithParam<const Technique*> {};
 
 double difference_from_truth(const Accuracy& accuracy) {
-    return std::ranges::find(accuracy.method, "relative rmse", &Figure::name)->value;
+    return std::ranges::find(accuracy.technique_errors, "relative rmse", &Metric::name)->value;
 }
 
 TEST_P(LitGlassBy, IsWhatModelAndTruthSay) {
@@ -258,8 +257,8 @@ TEST_P(LitGlassBy, IsWhatModelAndTruthSay) {
     if (!accuracy.not_supported.empty()) GTEST_SKIP() << accuracy.not_supported;
     expect_within_tolerance(accuracy, technique, request);
     EXPECT_GE(accuracy.compared - accuracy.trivial, 500u);
-    // The panes and puffs hide nothing of each other, and no method is wrong about a lone layer but by its formats: most, 7.7e-4,
-    // the eighth of an alpha that transparency/a_buffer stores.
+    // The panes and puffs hide nothing of each other, and no technique is wrong about a lone layer but by its formats:
+    // most, 7.7e-4, the eighth of an alpha that transparency/a_buffer stores.
     EXPECT_LT(difference_from_truth(accuracy), 1e-3);
 }
 

@@ -1,4 +1,4 @@
-// Lists of more fragments than a driver lets a loop turn are right.
+// Lists of more fragments than a driver lets a loop iterate are right.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -7,6 +7,7 @@
 #include "captures/scenarios/frame_builder.h"
 #include "captures/scenarios/shapes.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "tests/support/session.h"
 
 namespace strata {

@@ -1,10 +1,13 @@
-// Draws of two resolutions in one frame. Methods whose sums have no order draw at half resolution what is recorded so and merge
-// it; the others draw everything at full resolution.
+// Draws of two resolutions in one frame. Techniques whose sums have no order draw at half resolution what is recorded so and
+// merge it; the others draw everything at full resolution.
 #include <array>
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
+#include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "replay/images/image_io.h"
 #include "tests/support/agreement.h"
 #include "tests/support/session.h"
@@ -28,7 +31,7 @@ struct Merging {
 };
 
 const std::vector<Merging>& merging() {
-    static const std::vector<Merging> methods = {
+    static const std::vector<Merging> techniques = {
         {"transparency/weighted", "fragments", {"form=normalized", "form=average", "form=sum"}},
         {additive, "fragments", {"normalization=published", "normalization=corrected"}},
         {"transparency/adaptive", "drawn", {"nodes=8"}},
@@ -37,7 +40,7 @@ const std::vector<Merging>& merging() {
         {"transparency/wavelet", "drawn", {"bounds=frame", "bounds=pixel", "resolution=half"}},
         {"transparency/voxel", "drawn", {"resolution=full", "resolution=quarter"}},
     };
-    return methods;
+    return techniques;
 }
 
 Session& smoke() {
@@ -49,11 +52,11 @@ Session& smoke() {
 class LowResolution : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(LowResolution, IsMergedAsTheModelSays) {
-    const Merging& method = merging()[GetParam()];
-    const Technique& technique = *must(find_technique(method.technique));
+    const Merging& merged = merging()[GetParam()];
+    const Technique& technique = *must(find_technique(merged.technique));
     for (std::size_t frame = 0; frame < smoke().frame_count(); ++frame)
-        for (const std::string& set : method.settings) {
-            const Request request{.variant = {.frame = frame}, .choices = chosen({std::string(method.technique)}, {set})};
+        for (const std::string& set : merged.settings) {
+            const Request request{.variant = {.frame = frame}, .choices = chosen({std::string(merged.technique)}, {set})};
             const Accuracy accuracy = must(smoke().judge(request, technique.stage, Against::model));
             expect_within_tolerance(accuracy, technique, request);
             EXPECT_LT(double(accuracy.undecided), .4 * double(accuracy.compared + accuracy.undecided));
@@ -61,25 +64,25 @@ TEST_P(LowResolution, IsMergedAsTheModelSays) {
 }
 
 TEST_P(LowResolution, ShadesAQuarterOfTheFragments) {
-    const Merging& method = merging()[GetParam()];
+    const Merging& merged = merging()[GetParam()];
     const auto fragments = [&](Resolution resolution) {
         Frame frame = low_resolution_smoke(96, 54, 1);
         for (Emitter& emitter : frame.emitters) emitter.resolution = resolution;
         std::erase_if(frame.draws, [&](const Draw& draw) { return is_transparent(frame.materials[draw.material].alpha_mode); });
         const auto session = session_of({frame});
-        return double(counted(must(session->run({.choices = chosen({std::string(method.technique)})})), method.counter));
+        return double(counted(must(session->run({.choices = chosen({std::string(merged.technique)})})), merged.counter));
     };
     EXPECT_NEAR(fragments(Resolution::low) / fragments(Resolution::full), .25, .03);
 }
 
-std::string merging_method_name(const testing::TestParamInfo<std::size_t>& info) {
+std::string merging_technique_name(const testing::TestParamInfo<std::size_t>& info) {
     const std::string_view name = merging()[info.param].technique;
     return std::string(name.substr(name.find('/') + 1));
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, LowResolution, testing::Range(std::size_t{0}, merging().size()), merging_method_name);
+INSTANTIATE_TEST_SUITE_P(Techniques, LowResolution, testing::Range(std::size_t{0}, merging().size()), merging_technique_name);
 
-/// Smoke is soft: what half resolution costs a method that is exact otherwise is small, and seen.
+/// Smoke is soft: what half resolution costs a technique that is exact otherwise is small, and seen.
 TEST(LowResolutionError, OfAnExactFunctionIsThatOfFilteringSmoke) {
     const auto error = [&](Resolution resolution) {
         Frame frame = low_resolution_smoke(160, 90, 1);
@@ -87,7 +90,7 @@ TEST(LowResolutionError, OfAnExactFunctionIsThatOfFilteringSmoke) {
         const auto session = session_of({frame});
         return must(session->judge({.choices = chosen({"transparency/exact_function"}, {"accumulation=single"})},
                                    Stage::transparency, Against::truth))
-            .method.front()
+            .technique_errors.front()
             .value;
     };
     EXPECT_LT(error(Resolution::full), 1e-5);

@@ -1,4 +1,4 @@
-// Which samples masked surfaces cover on the device, method by method: what docs/algorithms/deferred.md 4 says (T-AT-1 to 4), and
+// Which samples masked surfaces cover on the device, mode by mode: what docs/algorithms/deferred.md 4 says (T-AT-1 to 4), and
 // what the models say of a fence and of foliage.
 #include <bit>
 #include <cstring>
@@ -10,6 +10,7 @@
 #include "captures/cards.h"
 #include "captures/scenarios/frame_builder.h"
 #include "captures/scenarios/shapes.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/coverage/bands.h"
 #include "passes/gbuffer/coverage/coverage.shared.h"
 #include "passes/registry.h"
@@ -24,15 +25,15 @@ namespace {
 
 using namespace gbuffer;
 
-/// The methods by name, as --set takes them.
-std::span<const std::string_view> methods() {
+/// The modes by name, as --set takes them.
+std::span<const std::string_view> modes() {
     for (const Param& param : (*find_technique("gbuffer/octahedral"))->params)
         if (param.name == "masked") return param.choices;
     return {};
 }
 
-Request with(std::uint32_t method, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> sets{fmt::format("masked={}", methods()[method])};
+Request with(std::uint32_t mode, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> sets{fmt::format("masked={}", modes()[mode])};
     sets.insert(sets.end(), more.begin(), more.end());
     return {.choices = chosen({"gbuffer/octahedral"}, sets), .outputs = {"depth_layers"}};
 }
@@ -85,16 +86,16 @@ Frame sixteenths(std::uint32_t samples) {
 glm::uvec2 corner_of(std::uint32_t number) { return {number % (edge / tile) * tile, number / (edge / tile) * tile}; }
 
 TEST(MaskedSurfaces, OfConstantAlphaCoverTheSamplesThatTheTablesSay) {
-    constexpr std::uint32_t band_methods[] = {masked_a2c_1, masked_a2c_2, masked_a2c_or, masked_full_step, masked_unbiased};
+    constexpr std::uint32_t band_modes[] = {masked_a2c_1, masked_a2c_2, masked_a2c_or, masked_full_step, masked_unbiased};
     for (const std::uint32_t samples : {1u, 4u}) {
         const auto session = session_of({sixteenths(samples)});
-        for (const std::uint32_t method : band_methods) {
-            const Masks got = masks_of(*session, with(method));
+        for (const std::uint32_t mode : band_modes) {
+            const Masks got = masks_of(*session, with(mode));
             for (std::uint32_t k = 0; k <= 16; ++k)
                 for (std::uint32_t i = 0; i < tile * tile; ++i) {
                     const glm::uvec2 at = corner_of(k) + glm::uvec2(i % tile, i / tile);
-                    ASSERT_EQ(got.at(at.x, at.y), sample_mask(method, samples, k / 16.0, {at.x, at.y, k, 0}))
-                        << methods()[method] << " at " << samples << ": " << k << "/16 in pixel " << at.x << ", " << at.y;
+                    ASSERT_EQ(got.at(at.x, at.y), sample_mask(mode, samples, k / 16.0, {at.x, at.y, k, 0}))
+                        << modes()[mode] << " at " << samples << ": " << k << "/16 in pixel " << at.x << ", " << at.y;
                 }
         }
     }
@@ -103,21 +104,21 @@ TEST(MaskedSurfaces, OfConstantAlphaCoverTheSamplesThatTheTablesSay) {
 TEST(MaskedSurfaces, CoverSixteenthsOnAverageAsTheChapterSays) {
     const auto session = session_of({sixteenths(4)});
     for (const MeanCoverages& row : mean_coverages) {
-        const Masks got = masks_of(*session, with(row.method));
+        const Masks got = masks_of(*session, with(row.mode));
         std::string measured;
         for (std::size_t i = 0; i < table_alphas.size(); ++i) {
             const double coverage = got.coverage(corner_of(table_alphas[i]), {tile, tile});
             measured += fmt::format("{} ", coverage);
-            EXPECT_EQ(coverage, row.at[i]) << methods()[row.method] << " at " << table_alphas[i] << "/16";
+            EXPECT_EQ(coverage, row.at[i]) << modes()[row.mode] << " at " << table_alphas[i] << "/16";
         }
-        RecordProperty(std::string(methods()[row.method]), measured);
+        RecordProperty(std::string(modes()[row.mode]), measured);
     }
     const Masks clipped = masks_of(*session, with(masked_clip));
     EXPECT_EQ(clipped.coverage(corner_of(7), {tile, tile}), 0);
     EXPECT_EQ(clipped.coverage(corner_of(8), {tile, tile}), 1);
 }
 
-TEST(MaskedSurfaces, OfAlphaOneHaveNoCracksByAnyMethod) {
+TEST(MaskedSurfaces, OfAlphaOneHaveNoCracksByAnyMode) {
     const std::vector<Card> cards{{.center = {0, 0, 3}, .half = 2, .tilt = 0.7},
                                   {.center = {0.5, 0.4, 2}, .half = 0.6f, .tilt = -0.5}};
     std::vector<Frame> frames;
@@ -129,12 +130,12 @@ TEST(MaskedSurfaces, OfAlphaOneHaveNoCracksByAnyMethod) {
     const auto session = session_of(frames);
     const std::vector<std::uint32_t> solid = masks_of(*session, with(masked_clip)).of;
     EXPECT_GT(std::ranges::count(solid, 15u), 100);
-    for (std::uint32_t method = 0; method < methods().size(); ++method) {
-        Request request = with(method);
+    for (std::uint32_t mode = 0; mode < modes().size(); ++mode) {
+        Request request = with(mode);
         request.variant.frame = 1;
-        EXPECT_EQ(masks_of(*session, request).of, solid) << methods()[method];
+        EXPECT_EQ(masks_of(*session, request).of, solid) << modes()[mode];
         set(request, "attributes=sample");
-        EXPECT_EQ(masks_of(*session, request).of, solid) << methods()[method] << ", attributes at the sample";
+        EXPECT_EQ(masks_of(*session, request).of, solid) << modes()[mode] << ", attributes at the sample";
     }
 }
 
@@ -174,8 +175,8 @@ TEST(MaskedSurfaces, OfHalfPlanesStepAtTheSamplesPlaces) {
                                             {.validation = true}));
     constexpr double along_x[] = {.375, .875, .125, .625}, along_y[] = {.125, .375, .625, .875};
     for (std::size_t frame = 0; frame < 4; ++frame)
-        for (const std::uint32_t method : {masked_per_sample, masked_per_sample_fine}) {
-            Request request = with(method);
+        for (const std::uint32_t mode : {masked_per_sample, masked_per_sample_fine}) {
+            Request request = with(mode);
             request.variant.frame = frame;
             const Masks got = masks_of(*session, request);
             for (std::uint32_t number = 0; number < 16; ++number) {
@@ -183,7 +184,7 @@ TEST(MaskedSurfaces, OfHalfPlanesStepAtTheSamplesPlaces) {
                 for (std::uint32_t i = 0; i < 4; ++i)
                     if ((frame % 2 == 1 ? along_y : along_x)[i] > (number + .5) / 16) wanted |= 1u << i;
                 const glm::uvec2 at = corner_of(number) + (frame % 2 == 1 ? glm::uvec2(2, 1) : glm::uvec2(1, 2));
-                EXPECT_EQ(got.at(at.x, at.y), wanted) << methods()[method] << " frame " << frame << " edge " << number;
+                EXPECT_EQ(got.at(at.x, at.y), wanted) << modes()[mode] << " frame " << frame << " edge " << number;
             }
         }
 }
@@ -198,7 +199,7 @@ Frame minified_chessboard(float cutoff) {
 TEST(MaskedSurfaces, OfAMinifiedChessboardVanishOrGrowSolidWhereTheyAreTestedAndFadeInBands) {
     const auto session = session_of({minified_chessboard(200.f / 255), minified_chessboard(.5f)});
     struct Row {
-        std::uint32_t method;
+        std::uint32_t mode;
         double above, at_half;  // with a cutoff of 200 / 255, and of .5
     };
     for (const Row& row : {Row{masked_clip, 0, 1},
@@ -210,10 +211,10 @@ TEST(MaskedSurfaces, OfAMinifiedChessboardVanishOrGrowSolidWhereTheyAreTestedAnd
                            {masked_full_step, .5, .5},
                            {masked_unbiased, .5, .5},
                            {masked_mip_coverage, 1, 1}}) {
-        Request request = with(row.method);
-        EXPECT_EQ(masks_of(*session, request).coverage({0, 0}, {tile, tile}), row.above) << methods()[row.method];
+        Request request = with(row.mode);
+        EXPECT_EQ(masks_of(*session, request).coverage({0, 0}, {tile, tile}), row.above) << modes()[row.mode];
         request.variant.frame = 1;
-        EXPECT_EQ(masks_of(*session, request).coverage({0, 0}, {tile, tile}), row.at_half) << methods()[row.method];
+        EXPECT_EQ(masks_of(*session, request).coverage({0, 0}, {tile, tile}), row.at_half) << modes()[row.mode];
     }
 }
 
@@ -221,7 +222,7 @@ TEST(MaskedSurfaces, OverEachOtherHideMoreWhereTheirPatternsDiffer) {
     const std::vector<Card> two{{.center = {0, 0, 2}, .half = 3, .color = {1, 1, 1, .5f}, .alpha_mode = AlphaMode::mask},
                                 {.center = {0, 0, 3}, .half = 4, .color = {1, 1, 1, .5f}, .alpha_mode = AlphaMode::mask}};
     const auto session = session_of({frame_of(two)});
-    const auto coverage = [&](std::uint32_t method) { return masks_of(*session, with(method)).coverage({0, 0}, {edge, edge}); };
+    const auto coverage = [&](std::uint32_t mode) { return masks_of(*session, with(mode)).coverage({0, 0}, {edge, edge}); };
     EXPECT_EQ(coverage(masked_a2c_1), .5);
     EXPECT_EQ(coverage(masked_a2c_2), .5);
     // A pixel's union has a standard deviation of .177; there are 1024.
@@ -265,9 +266,9 @@ TEST(MaskedSurfaces, ByHardwareHaveASurfaceWhereverTheFirstPassLeftADepth) {
 
 TEST(MaskedSurfaces, CostNothingInFramesWithoutThem) {
     const auto session = scenario_session("opaque_only", 4);
-    const auto steps = [&](std::uint32_t method) {
+    const auto steps = [&](std::uint32_t mode) {
         std::vector<std::string> described;
-        for (const PlannedStep& planned : must(session->plan(with(method))).plan.steps) {
+        for (const PlannedStep& planned : must(session->plan(with(mode))).plan.steps) {
             std::string text = planned.step.name;
             for (const Fixed& fixed : planned.step.fixed)
                 text += fmt::format(" {}={}", fixed.name, std::visit([](auto value) { return double(value); }, fixed.value));
@@ -276,25 +277,25 @@ TEST(MaskedSurfaces, CostNothingInFramesWithoutThem) {
         return described;
     };
     const std::vector<std::string> plain = steps(masked_clip);
-    for (std::uint32_t method = 1; method < methods().size(); ++method) EXPECT_EQ(steps(method), plain) << methods()[method];
+    for (std::uint32_t mode = 1; mode < modes().size(); ++mode) EXPECT_EQ(steps(mode), plain) << modes()[mode];
 }
 
 /// One sample lies at the pixel's center, where the plain test asks.
-TEST(MaskedSurfaces, AtOneSampleAreTestedAtThePixelsCenterByTheMethodsOfSamples) {
+TEST(MaskedSurfaces, AtOneSampleAreTestedAtThePixelsCenterByTheModesOfSamples) {
     const auto session = scenario_session("fence_and_foliage");
     const std::vector<std::uint32_t> clipped = masks_of(*session, with(masked_clip)).of;
-    for (const std::uint32_t method : {masked_per_sample, masked_per_sample_fine, masked_sharpened, masked_hardware})
-        EXPECT_EQ(masks_of(*session, with(method)).of, clipped) << methods()[method];
+    for (const std::uint32_t mode : {masked_per_sample, masked_per_sample_fine, masked_sharpened, masked_hardware})
+        EXPECT_EQ(masks_of(*session, with(mode)).of, clipped) << modes()[mode];
 }
 
 class MaskedBy : public testing::TestWithParam<std::uint32_t> {};
 
-void expect_agreement(std::uint32_t method, const std::vector<std::string>& more) {
+void expect_agreement(std::uint32_t mode, const std::vector<std::string>& more) {
     Request request = on_scenario("fence_and_foliage", 4);
-    request.choices = with(method, more).choices;
+    request.choices = with(mode, more).choices;
     const Technique& technique = **find_technique("gbuffer/octahedral");
     const Accuracy accuracy = must(session_of_scenarios().judge(request, Stage::gbuffer, Against::model));
-    if (method != masked_hardware) return expect_proven_within_tolerance(accuracy, technique, request, "fence_and_foliage");
+    if (mode != masked_hardware) return expect_proven_within_tolerance(accuracy, technique, request, "fence_and_foliage");
     // The model leaves alphas between 0 and 1 to the device, and what lies behind them: 46 % of the samples.
     expect_within_tolerance(accuracy, technique, request, "fence_and_foliage");
     EXPECT_GT(accuracy.compared - accuracy.trivial, 10'000u);
@@ -302,15 +303,15 @@ void expect_agreement(std::uint32_t method, const std::vector<std::string>& more
 
 TEST_P(MaskedBy, CoverTheSamplesOfAFenceThatTheModelSays) { expect_agreement(GetParam(), {}); }
 
-INSTANTIATE_TEST_SUITE_P(Methods, MaskedBy, testing::Range(0u, masked_hardware + 1),
-                         [](const auto& tested) { return std::string(methods()[tested.param]); });
+INSTANTIATE_TEST_SUITE_P(Modes, MaskedBy, testing::Range(0u, masked_hardware + 1),
+                         [](const auto& tested) { return std::string(modes()[tested.param]); });
 
 class ExhaustiveMaskedBy : public testing::TestWithParam<std::uint32_t> {};
 
 TEST_P(ExhaustiveMaskedBy, WithAttributesAtTheSampleToo) { expect_agreement(GetParam(), {"attributes=sample"}); }
 
-INSTANTIATE_TEST_SUITE_P(Methods, ExhaustiveMaskedBy, testing::Range(0u, masked_hardware + 1),
-                         [](const auto& tested) { return std::string(methods()[tested.param]); });
+INSTANTIATE_TEST_SUITE_P(Modes, ExhaustiveMaskedBy, testing::Range(0u, masked_hardware + 1),
+                         [](const auto& tested) { return std::string(modes()[tested.param]); });
 
 }  // namespace
 }  // namespace strata

@@ -1,5 +1,6 @@
 // The matrix: every technique on every scenario of its stage, at 1 and at 4 samples, against its model in double. An error here
-// is an implementation error: a bug. By default a quarter of it is judged, at 4 samples: method_test.cpp judges all of it at 1.
+// is an implementation error: a bug. By default a quarter of it is judged, at 4 samples: technique_test.cpp judges all of it
+// at 1.
 #include <algorithm>
 #include <ostream>
 #include <ranges>
@@ -8,8 +9,10 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
 #include "passes/registry.h"
+#include "passes/stages.h"
 #include "tests/support/agreement.h"
 #include "tests/support/print.h"
 #include "tests/support/truths.h"

@@ -2,8 +2,10 @@
 // mixed in twice as much would give the same picture.
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "tests/support/agreement.h"
 
 namespace strata {
@@ -21,7 +23,7 @@ TEST_P(MomentsBias, MixesInAsMuchAsTheModelAtTwentyTimesThePublished) {
         const Request request{.choices = chosen({"transparency/moments"}, {GetParam(), "storage=half", "bias=" + bias})};
         const Accuracy accuracy = must(session->judge(request, Stage::transparency));
         expect_within_tolerance(accuracy, moments, request);
-        return accuracy.method.front().value;
+        return accuracy.technique_errors.front().value;
     };
     EXPECT_GT(error_at("20"), 1.05 * error_at("10")) << "so much is seen of twice the bias";
 }

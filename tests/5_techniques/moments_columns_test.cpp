@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/transparency/moments/model.h"
+#include "passes/transparency/moments/moments.shared.h"
 #include "replay/probe/probe.h"
 #include "tests/support/session.h"
 
@@ -37,53 +38,53 @@ constexpr FragmentColumn degenerate_columns[] = {
     {"two opaque fragments at almost one depth", 2, 10, .41, 1e-5},
 };
 
-std::vector<WarpedEvent> events_of(const FragmentColumn& column) {
+std::vector<WarpedFragment> fragments_of(const FragmentColumn& column) {
     std::mt19937 random(5);
-    std::vector<WarpedEvent> events;
+    std::vector<WarpedFragment> projected;
     for (int i = 0; i < column.fragments; ++i)
-        events.push_back({column.center + column.width * (double(random()) / 4294967296. - .5), column.optical_depth});
-    return events;
+        projected.push_back({column.center + column.width * (double(random()) / 4294967296. - .5), column.optical_depth});
+    return projected;
 }
 
 double z_of(double w) { return near_end * std::pow(far_end / near_end, .5 * (w + 1)); }
 double w_of(double z) { return 2 * std::log(z / near_end) / std::log(far_end / near_end) - 1; }
 
-ProbedStack stack_of(const std::vector<WarpedEvent>& events) {
+ProbedStack stack_of(const std::vector<WarpedFragment>& projected) {
     ProbedStack stack{.nearest = near_end, .farthest = far_end};
-    for (const WarpedEvent& event : events)
-        stack.fragments.push_back({.depth = z_of(event.w),
-                                   .transmittance = glm::dvec3(std::exp(-event.optical_depth)),
-                                   .alpha = -std::expm1(-event.optical_depth),
+    for (const WarpedFragment& fragment : projected)
+        stack.fragments.push_back({.depth = z_of(fragment.w),
+                                   .transmittance = glm::dvec3(std::exp(-fragment.optical_depth)),
+                                   .alpha = -std::expm1(-fragment.optical_depth),
                                    .submission = static_cast<std::uint32_t>(stack.fragments.size())});
     return stack;
 }
 
 /// Sums in FP16 are not among them: six and eight of them are noise in such columns (the technique's README).
-struct ColumnMethod {
+struct ColumnVariant {
     const char* settings;
     std::uint32_t kind;
     double degenerate_tolerance;  ///< 1.3 to 2 times what is measured: float sums are a few steps finer than the bias of the kind
 };
 
-void expect_agreement(const ColumnMethod& method, const FragmentColumn& column, double tolerance) {
-    const MomentsParams params{.kind = method.kind, .storage = storage_single, .bias = 1, .overestimation = .25f};
-    const std::vector<WarpedEvent> events = events_of(column);
-    const ProbeOptions options{.methods = {std::string("transparency/moments ") + method.settings},
+void expect_agreement(const ColumnVariant& variant, const FragmentColumn& column, double tolerance) {
+    const MomentsParams params{.kind = variant.kind, .storage = storage_single, .bias = 1, .overestimation = .25f};
+    const std::vector<WarpedFragment> projected = fragments_of(column);
+    const ProbeOptions options{.variants = {std::string("transparency/moments ") + variant.settings},
                                .samples = column.fragments > 1000 ? 64u : 512u,
                                .from = near_end * 1.001,
                                .to = far_end / 1.001};
-    const Probe made = must(probe(session_of_scenarios(), stack_of(events), options));
+    const Probe made = must(probe(session_of_scenarios(), stack_of(projected), options));
     double worst = 0, at = 0;
     for (std::size_t i = 0; i < made.depths.size(); ++i) {
         const double w = w_of(made.depths[i]);
-        const double off = std::abs(made.curves[0].through[i].x - transmittance_in_double(params, events, w));
+        const double off = std::abs(made.curves[0].through[i].x - transmittance_in_double(params, projected, w));
         if (!(off <= worst)) worst = off, at = w;
     }
     testing::Test::RecordProperty(column.name, fmt::format("{:.2g} at w = {:.5f}", worst, at));
-    EXPECT_LE(worst, tolerance) << method.settings << ", " << column.name << ", at w = " << at;
+    EXPECT_LE(worst, tolerance) << variant.settings << ", " << column.name << ", at w = " << at;
 }
 
-class MomentsColumns : public testing::TestWithParam<ColumnMethod> {};
+class MomentsColumns : public testing::TestWithParam<ColumnVariant> {};
 
 TEST_P(MomentsColumns, AreWhatTheModelSaysAtEveryDepth) {
     // 5e-4 of it are the half floats in which a probe's T is written.
@@ -91,13 +92,15 @@ TEST_P(MomentsColumns, AreWhatTheModelSaysAtEveryDepth) {
     for (const FragmentColumn& column : degenerate_columns) expect_agreement(GetParam(), column, GetParam().degenerate_tolerance);
 }
 
-std::string kind_name(const testing::TestParamInfo<ColumnMethod>& tested) { return std::string(tested.param.settings).substr(5); }
+std::string kind_name(const testing::TestParamInfo<ColumnVariant>& tested) {
+    return std::string(tested.param.settings).substr(5);
+}
 
 // Every depth draws all fragments of its column: fewer depths where there are many. Eight moments are where digits are lost.
-INSTANTIATE_TEST_SUITE_P(Eight, MomentsColumns, testing::Values(ColumnMethod{"kind=power8", moments_power8, .006}), kind_name);
+INSTANTIATE_TEST_SUITE_P(Eight, MomentsColumns, testing::Values(ColumnVariant{"kind=power8", moments_power8, .006}), kind_name);
 INSTANTIATE_TEST_SUITE_P(Exhaustive, MomentsColumns,
-                         testing::Values(ColumnMethod{"kind=power4", moments_power4, .05},
-                                         ColumnMethod{"kind=power6", moments_power6, .05}),
+                         testing::Values(ColumnVariant{"kind=power4", moments_power4, .05},
+                                         ColumnVariant{"kind=power6", moments_power6, .05}),
                          kind_name);
 
 }  // namespace

@@ -6,10 +6,13 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
+#include "passes/frame_images.h"
 #include "passes/reference/shade.h"
 #include "passes/reference/triangles.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "passes/transparency/sample_blend.h"
 #include "tests/support/session.h"
 
@@ -40,9 +43,9 @@ Frame pane_over_wall(double pane_pixels) {
                                             Card{.center = {0, 0, 4}, .half = 20, .alpha_mode = AlphaMode::opaque}},
                                  extent);
     // Half the image is as wide as it is far away.
-    const auto metres = [&](double pixels, double z) { return pixels * z / (extent / 2); };
-    frame.draws[0].previous_to_world[3].x -= metres(pane_pixels, 2);
-    frame.draws[1].previous_to_world[3].x -= metres(1, 4);
+    const auto meters = [&](double pixels, double z) { return pixels * z / (extent / 2); };
+    frame.draws[0].previous_to_world[3].x -= meters(pane_pixels, 2);
+    frame.draws[1].previous_to_world[3].x -= meters(1, 4);
     return frame;
 }
 

@@ -8,7 +8,9 @@
 #include "captures/scenarios.h"
 #include "passes/culling/judge.h"
 #include "passes/culling/truth.h"
-#include "passes/registry.h"
+#include "passes/frame_images.h"
+#include "passes/stage_input.h"
+#include "passes/stages.h"
 #include "replay/images/image_io.h"
 #include "tests/support/session.h"
 
@@ -34,7 +36,7 @@ std::uint64_t drawn(const Run& run) {
     return static_cast<std::uint64_t>(std::ranges::count_if(visible.texels, [](const glm::dvec4& t) { return t.x == 1; }));
 }
 
-std::vector<Figure> judged(const Run& run, const Frame& frame) {
+std::vector<Metric> judged(const Run& run, const Frame& frame) {
     const ImageSet before;
     ImageSet result;
     result.emplace("visible", in_double(run.images.at("visible")));
@@ -64,9 +66,9 @@ TEST(OcclusionCulling, HidesNoVisibleDrawAlongAPathThroughACityAndAnswersAsIfItH
             EXPECT_LE(counted_by_hiz(alone, "drawn first"), 64u);
             ASSERT_EQ(hash_of(run.images.at("visible")), hash_of(alone.images.at("visible"))) << "frame " << i;
         }
-        const std::vector<Figure> figures = judged(run, frames[i]);
-        EXPECT_EQ(figures[0].value, 0) << figures[0].name << " in frame " << i;
-        EXPECT_LT(figures[2].value, .5 * double(counted_by_hiz(run, "in view"))) << "drawn in frame " << i;
+        const std::vector<Metric> metrics = judged(run, frames[i]);
+        EXPECT_EQ(metrics[0].value, 0) << metrics[0].name << " in frame " << i;
+        EXPECT_LT(metrics[2].value, .5 * double(counted_by_hiz(run, "in view"))) << "drawn in frame " << i;
         if (i > 0) newly += counted_by_hiz(run, "newly visible");
     }
     EXPECT_GT(newly, 0u) << "nothing came into sight: the second phase was never needed";
@@ -137,8 +139,8 @@ TEST(OcclusionCulling, BuildsEveryLevelOfThePyramidFromTheDepthTheGBufferHas) {
                 for (std::uint32_t y = 0; y < height; ++y)
                     for (std::uint32_t x = 0; x < width; ++x) {
                         const double depth = wanted.at(x >> level, y >> level).x;
-                        const double metres = depth > 0 ? double(frames[0].view.near) / depth : 0;
-                        worst = std::max(worst, std::abs(shown.at(x, y).x - metres) / std::max(metres, 1e-9));
+                        const double meters = depth > 0 ? double(frames[0].view.near) / depth : 0;
+                        worst = std::max(worst, std::abs(shown.at(x, y).x - meters) / std::max(meters, 1e-9));
                     }
                 EXPECT_LT(worst, 1e-6) << "level " << level << " of " << width << "x" << height << " at " << samples;
             }

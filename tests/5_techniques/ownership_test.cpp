@@ -7,10 +7,14 @@
 #include <gtest/gtest.h>
 
 #include "captures/scenarios.h"
+#include "passes/graph/graph.h"
+#include "passes/registry.h"
 #include "passes/scene/scene_facts.h"
+#include "passes/stages.h"
 #include "replay/session/frame_plan.h"
 #include "tests/support/print.h"
 #include "tests/support/session.h"
+#include "ui/replayer/step_work.h"
 
 namespace strata {
 namespace {
@@ -51,28 +55,28 @@ void sketch(Sketch& s, const Technique& technique, std::string_view scenario, st
     s.frame = must(declare_frame(s.graph, s.images, choices, every));
 }
 
-/// "depth in gbuffer/x/fill" for everything the technique's acts write or replace that its stage does not own.
+/// "depth in gbuffer/x/fill" for everything the technique's passes write or replace that its stage does not own.
 std::vector<std::string> trespasses(const Sketch& s, const Technique& technique) {
     std::vector<std::string> found;
     const std::vector<std::string_view>& owned = info(technique.stage).outputs;
-    for (std::size_t i = 0; i < s.frame.acts.size(); ++i) {
-        const DeclaredAct& act = s.frame.acts[i];
-        if (act.technique != &technique) continue;
-        const FrameImages& after = i + 1 < s.frame.acts.size() ? s.frame.acts[i + 1].before : s.images;
+    for (std::size_t i = 0; i < s.frame.passes.size(); ++i) {
+        const DeclaredPass& pass = s.frame.passes[i];
+        if (pass.technique != &technique) continue;
+        const FrameImages& after = i + 1 < s.frame.passes.size() ? s.frame.passes[i + 1].before : s.images;
         for (const FrameImageRow& row : frame_images()) {
             if (std::ranges::count(owned, row.name)) continue;
-            const Image before = act.before.*row.member;
+            const Image before = pass.before.*row.member;
             if ((after.*row.member).id != before.id) found.push_back(fmt::format("{} is replaced", row.name));
             for (const Step& step : s.graph.steps())
-                if (step.scope == act.scope && before && std::ranges::count(images_written(step), before.id, &Image::id) > 0)
+                if (step.scope == pass.scope && before && std::ranges::count(images_written(step), before.id, &Image::id) > 0)
                     found.push_back(fmt::format("{} in {}", row.name, step.name));
         }
     }
     return found;
 }
 
-bool acts(const Sketch& s, const Technique& technique) {
-    return std::ranges::count(s.frame.acts, &technique, &DeclaredAct::technique) > 0;
+bool passes(const Sketch& s, const Technique& technique) {
+    return std::ranges::count(s.frame.passes, &technique, &DeclaredPass::technique) > 0;
 }
 
 class Ownership : public testing::TestWithParam<Technique> {};
@@ -83,7 +87,7 @@ TEST_P(Ownership, ATechniqueWritesOnlyWhatItsStageOwns) {
         for (const std::uint32_t samples : {1u, 4u}) {
             Sketch s;
             sketch(s, technique, scenario, samples);
-            EXPECT_TRUE(acts(s, technique));
+            EXPECT_TRUE(passes(s, technique));
             EXPECT_THAT(trespasses(s, technique), testing::IsEmpty()) << scenario << " at " << samples;
         }
 }

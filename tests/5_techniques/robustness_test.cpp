@@ -1,4 +1,4 @@
-// Frames that no artist would send and every method must survive: tiny, odd, empty, opaque, 200 layers, behind the eye. Where
+// Frames that no artist would send and every technique must survive: tiny, odd, empty, opaque, 200 layers, behind the eye. Where
 // a frame must look like a simpler one, it must do so bit for bit.
 #include <algorithm>
 #include <optional>
@@ -9,7 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "captures/scenarios.h"
+#include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/images/image_io.h"
 #include "tests/support/agreement.h"
 #include "tests/support/not_finite.h"

@@ -13,6 +13,7 @@
 
 #include "captures/scenarios.h"
 #include "passes/registry.h"
+#include "passes/stages.h"
 #include "tests/support/agreement.h"
 #include "tests/support/print.h"
 #include "tests/support/second_device.h"

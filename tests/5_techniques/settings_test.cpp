@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "passes/technique.h"
+#include "capture_format/result.h"
+#include "passes/settings.h"
+#include "tests/support/errors.h"
 
 namespace strata {
 namespace {
@@ -17,7 +19,7 @@ constexpr std::string_view qualities[] = {"low", "medium", "high"};
 
 const std::vector<Param>& params() {
     static const std::vector<Param> rows = {
-        param<&Block::falloff>({.name = "falloff", .low = 0.1, .high = 500, .fallback = 20, .help = "metres"}),
+        param<&Block::falloff>({.name = "falloff", .low = 0.1, .high = 500, .fallback = 20, .help = "meters"}),
         param<&Block::shift>({.name = "shift", .low = -4, .high = 4, .fallback = -2, .help = "texels"}),
         param<&Block::quality>({.name = "quality", .fallback = 1, .help = "of what", .choices = qualities}),
     };
@@ -45,18 +47,26 @@ TEST(Settings, AcceptAChoiceByNameOrNumber) {
 
 TEST(Settings, RefuseWhatIsOutOfRangeWithTheRange) {
     Settings settings(params());
-    EXPECT_EQ(settings.set("falloff", "0").error().sentence, "falloff is from 0.1 to 500, not 0");
-    EXPECT_EQ(settings.set("shift", "1.5").error().sentence, "shift is a whole number from -4 to 4, not 1.5");
-    EXPECT_EQ(settings.set("falloff", "nan").error().sentence, "falloff is from 0.1 to 500, not nan");
-    EXPECT_EQ(settings.set("falloff", "2m").error().sentence, "falloff is a number from 0.1 to 500, not '2m'");
+    const auto falloff = [](std::string id, auto value) {
+        return FailsWith(id, Field("setting", "falloff"), Field("low", .1), Field("high", 500), Field("value", value));
+    };
+    EXPECT_THAT(settings.set("falloff", "0"), falloff("settings.out_of_range", 0));
+    EXPECT_THAT(settings.set("falloff", "nan"), falloff("settings.out_of_range", "nan"));
+    EXPECT_THAT(settings.set("falloff", "2m"), falloff("settings.not_a_number", "2m"));
+    EXPECT_THAT(settings.set("shift", "1.5"), FailsWith("settings.not_whole", Field("setting", "shift"), Field("low", -4),
+                                                        Field("high", 4), Field("value", 1.5)));
+    EXPECT_THAT(settings.set("shift", 5.0), FailsWith("settings.out_of_range", Field("setting", "shift"), Field("value", 5)));
     EXPECT_EQ(settings.get("falloff"), 20);
 }
 
 TEST(Settings, RefuseWhatIsUnknownWithTheNearestName) {
     Settings settings(params());
-    EXPECT_EQ(settings.set("fallof", 1.0).error().sentence, "no parameter fallof; did you mean falloff?");
-    EXPECT_EQ(settings.set("quality", "hihg").error().sentence,
-              "quality is one of low, medium, high, not hihg; did you mean high?");
+    using testing::HasSubstr;
+    EXPECT_THAT(settings.set("fallof", 1.0),
+                FailsWith("settings.unknown", Field("setting", "fallof"), Field("suggestion", HasSubstr("falloff"))));
+    EXPECT_THAT(settings.set("quality", "hihg"), FailsWith("settings.not_a_choice", Field("choices", "low, medium, high"),
+                                                           Field("value", "hihg"), Field("suggestion", HasSubstr("high"))));
+    EXPECT_THAT(settings.set("quality", "3"), FailsWith("settings.not_a_choice", Field("setting", "quality"), Field("value", 3)));
 }
 
 }  // namespace

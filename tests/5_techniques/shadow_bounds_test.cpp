@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/shadows/bounds/build.h"
 #include "passes/shadows/min_max/min_max.h"
 #include "replay/images/host_image.h"
@@ -141,8 +142,8 @@ Answers ask_device(const Query& query) {
         const bool is_face = view.light == 1;
         if (query.bias > 0 && is_face) continue;
         const std::uint32_t count = is_face ? query.count / 8 : query.count - query.count / 4;
-        ComputePass pass = graph.compute("ask.comp");
-        fix_shadow_bounds(pass, query.bounds)
+        ComputeStep builder = graph.compute("ask.comp");
+        fix_shadow_bounds(builder, query.bounds)
             .samples("shadow_maps", map)
             .samples("shadow_bounds", bounds)
             .updates("Found", found)

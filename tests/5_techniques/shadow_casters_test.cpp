@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/coverage/coverage.shared.h"
 #include "passes/reference/textures.h"
 #include "passes/scene/shadow_views.h"
@@ -17,18 +19,18 @@
 namespace strata::shadow_casters {
 namespace {
 
-/// A value of caster_mask, and the method of the G-buffer that a model of it is.
-struct Method {
+/// A value of caster_mask, and the mode of the G-buffer that a model of it is.
+struct Mode {
     const char* name;
     std::uint32_t of_gbuffer;
 };
-constexpr std::array methods{Method{"clip", gbuffer::masked_clip}, Method{"mip_coverage", gbuffer::masked_mip_coverage},
-                             Method{"dither", gbuffer::masked_dithered}};
+constexpr std::array modes{Mode{"clip", gbuffer::masked_clip}, Mode{"mip_coverage", gbuffer::masked_mip_coverage},
+                           Mode{"dither", gbuffer::masked_dithered}};
 
-Request maps_by(const Method& method, const char* allocation = "own") {
-    return {.choices =
-                chosen({"shadows/pcf"}, {fmt::format("caster_mask={}", method.name), fmt::format("allocation={}", allocation)}),
-            .outputs = {"shadow_maps"}};
+Request maps_by(const Mode& mode, const char* allocation = "own") {
+    return {
+        .choices = chosen({"shadows/pcf"}, {fmt::format("caster_mask={}", mode.name), fmt::format("allocation={}", allocation)}),
+        .outputs = {"shadow_maps"}};
 }
 
 ReferenceImage maps_of(Session& session, const Request& request) {
@@ -63,20 +65,20 @@ Frame far_chessboard(AlphaMode mode, float cutoff = .5f) {
 TEST(CasterMasks, OfAFarChessboardVanishOrGrowSolidByTheCutoffStayByMipAndAreHalfByDither) {
     const auto session = session_of(
         {far_chessboard(AlphaMode::opaque), far_chessboard(AlphaMode::mask, 200.f / 255), far_chessboard(AlphaMode::mask, .5f)});
-    const auto area = [&](const Method& method, std::size_t frame) {
-        Request request = maps_by(method);
+    const auto area = [&](const Mode& mode, std::size_t frame) {
+        Request request = maps_by(mode);
         request.variant.frame = frame;
         return double(texels_filled(*session, request));
     };
-    const double solid = area(methods[0], 0);
+    const double solid = area(modes[0], 0);
     EXPECT_GT(solid, 1000);
     const double wanted[3][2] = {{0, 1}, {1, 1}, {.5, .5}};  // with a cutoff of 200 / 255, and of .5
-    for (std::size_t m = 0; m < methods.size(); ++m)
+    for (std::size_t m = 0; m < modes.size(); ++m)
         for (std::size_t cutoff = 0; cutoff < 2; ++cutoff) {
             // A dither of 4 texels is half full but for what the card's sides cut off: half a texel of each row's four or so.
-            const double share = area(methods[m], 1 + cutoff) / solid;
-            if (wanted[m][cutoff] == .5) EXPECT_NEAR(share, .5, 2 / std::sqrt(solid)) << methods[m].name;
-            else EXPECT_EQ(share, wanted[m][cutoff]) << methods[m].name;
+            const double share = area(modes[m], 1 + cutoff) / solid;
+            if (wanted[m][cutoff] == .5) EXPECT_NEAR(share, .5, 2 / std::sqrt(solid)) << modes[m].name;
+            else EXPECT_EQ(share, wanted[m][cutoff]) << modes[m].name;
         }
 }
 
@@ -98,11 +100,11 @@ struct Compared {
     std::size_t texels = 0, decided = 0, differing = 0;
 };
 
-Compared compare(const Frame& frame, const ReferenceImage& maps, const Method& method, Allocation allocation) {
+Compared compare(const Frame& frame, const ReferenceImage& maps, const Mode& mode, Allocation allocation) {
     Compared all;
     for (const ShadowView& view : shadow_views(frame, allocation)) {
         const ReferenceImage model = shadows::cast_model(
-            frame, {.view_to_map = view.view_to_map, .size = view.size, .offset = view.offset}, method.of_gbuffer);
+            frame, {.view_to_map = view.view_to_map, .size = view.size, .offset = view.offset}, mode.of_gbuffer);
         for (std::uint32_t y = 0; y < view.size; ++y)
             for (std::uint32_t x = 0; x < view.size; ++x) {
                 const std::size_t i = model.index(x, y);
@@ -116,46 +118,46 @@ Compared compare(const Frame& frame, const ReferenceImage& maps, const Method& m
     return all;
 }
 
-void expect_agreement(Session& session, const Frame& frame, const Method& method, Allocation allocation) {
-    const ReferenceImage maps = maps_of(session, maps_by(method, allocation == Allocation::need ? "need" : "own"));
-    const Compared found = compare(frame, maps, method, allocation);
-    testing::Test::RecordProperty(fmt::format("{} {}", method.name, allocation == Allocation::need ? "need" : "own"),
+void expect_agreement(Session& session, const Frame& frame, const Mode& mode, Allocation allocation) {
+    const ReferenceImage maps = maps_of(session, maps_by(mode, allocation == Allocation::need ? "need" : "own"));
+    const Compared found = compare(frame, maps, mode, allocation);
+    testing::Test::RecordProperty(fmt::format("{} {}", mode.name, allocation == Allocation::need ? "need" : "own"),
                                   fmt::format("{} texels, {} decided, {} differ", found.texels, found.decided, found.differing));
-    EXPECT_EQ(found.differing, 0u) << method.name << " of " << found.decided;
-    EXPECT_GT(double(found.decided), .9 * double(found.texels)) << method.name;
+    EXPECT_EQ(found.differing, 0u) << mode.name << " of " << found.decided;
+    EXPECT_GT(double(found.decided), .9 * double(found.texels)) << mode.name;
 }
 
 TEST(CasterMasks, AreInEveryTexelWhatTheModelSays) {
     const Frame frame = fence_and_spot();
     const auto session = session_of({frame});
-    for (const Method& method : methods) expect_agreement(*session, frame, method, Allocation::own);
+    for (const Mode& mode : modes) expect_agreement(*session, frame, mode, Allocation::own);
     // Packed maps: a dither counts texels of the layer.
-    expect_agreement(*session, frame, methods[2], Allocation::need);
+    expect_agreement(*session, frame, modes[2], Allocation::need);
 }
 
-TEST(CasterMasks, FillOtherTexelsByEachMethod) {
+TEST(CasterMasks, FillOtherTexelsByEachMode) {
     const auto session = session_of({fence_and_spot()});
-    const ReferenceImage clipped = maps_of(*session, maps_by(methods[0]));
-    for (std::size_t m = 1; m < methods.size(); ++m) {
-        const ReferenceImage maps = maps_of(*session, maps_by(methods[m]));
+    const ReferenceImage clipped = maps_of(*session, maps_by(modes[0]));
+    for (std::size_t m = 1; m < modes.size(); ++m) {
+        const ReferenceImage maps = maps_of(*session, maps_by(modes[m]));
         std::size_t others = 0;
         for (std::size_t i = 0; i < maps.texels.size(); ++i) others += maps.texels[i].x != clipped.texels[i].x;
-        EXPECT_GT(others, 500u) << methods[m].name;
+        EXPECT_GT(others, 500u) << modes[m].name;
     }
 }
 
 TEST(CasterMasks, CostNothingInFramesWithoutMaskedSurfaces) {
     const auto session = scenario_session("sun_and_boxes");
-    const auto steps = [&](const Method& method) {
+    const auto steps = [&](const Mode& mode) {
         std::string described;
-        for (const PlannedStep& planned : must(session->plan(maps_by(method))).plan.steps) {
+        for (const PlannedStep& planned : must(session->plan(maps_by(mode))).plan.steps) {
             described += planned.step.name;
             for (const Fixed& fixed : planned.step.fixed)
                 described += fmt::format(" {}={}", fixed.name, std::visit([](auto value) { return double(value); }, fixed.value));
         }
         return described;
     };
-    for (const Method& method : methods) EXPECT_EQ(steps(method), steps(methods[0])) << method.name;
+    for (const Mode& mode : modes) EXPECT_EQ(steps(mode), steps(modes[0])) << mode.name;
 }
 
 /// The panels of the fence that runs away from the eye, each alone; `mode` of their material.
@@ -202,18 +204,18 @@ TEST(CasterMasks, KeepAFencesShadowFarAway) {
         const glm::dvec3 center = frame.draws.front().to_world[3];
         const double depth = (frame.view.to_view * (center - frame.view.origin)).z;
         const std::size_t cascade = cascade_of(frame, depth);
-        const auto filled = [&](const Method& method, std::size_t number) {
-            Request request = maps_by(method);
+        const auto filled = [&](const Mode& mode, std::size_t number) {
+            Request request = maps_by(mode);
             request.variant.frame = number;
             return double(texels_filled(*session, request, cascade));
         };
-        const double wanted = true_share(frame) * filled(methods[0], numbers.size() + panel);
+        const double wanted = true_share(frame) * filled(modes[0], numbers.size() + panel);
         std::string text = fmt::format("{:.0f} m, {:.0f} mm texels, true {:.0f} texels:", depth,
                                        1000 * shadow_views(frame)[cascade].texel, wanted);
-        std::array<double, methods.size()> lost{};
-        for (std::size_t m = 0; m < methods.size(); ++m) {
-            lost[m] = 100 * (1 - filled(methods[m], panel) / wanted);
-            text += fmt::format(" {} {:.1f} % lost", methods[m].name, lost[m]);
+        std::array<double, modes.size()> lost{};
+        for (std::size_t m = 0; m < modes.size(); ++m) {
+            lost[m] = 100 * (1 - filled(modes[m], panel) / wanted);
+            text += fmt::format(" {} {:.1f} % lost", modes[m].name, lost[m]);
         }
         RecordProperty(fmt::format("panel {}", numbers[panel]), text);
         EXPECT_EQ(lost[0], 100) << text;

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
+#include "passes/frame_images.h"
 #include "passes/reference/fragments.h"
 #include "tests/support/session.h"
 
@@ -71,8 +73,8 @@ Session& odd_rows() {
     return *session;
 }
 
-Request banded_request(std::size_t frame, const Banded& method, std::string_view setting) {
-    return {.variant = {.frame = frame}, .choices = chosen({std::string(method.technique)}, {std::string(setting)})};
+Request banded_request(std::size_t frame, const Banded& technique, std::string_view setting) {
+    return {.variant = {.frame = frame}, .choices = chosen({std::string(technique.technique)}, {std::string(setting)})};
 }
 
 /// The rows of the draws with this name, of targets that high, in the order of the plan.
@@ -88,23 +90,24 @@ std::vector<Rows> rows_drawn(const Plan& plan, std::string_view name, std::uint3
 }
 
 TEST(Bands, GiveTheSameBitsAsOneBand) {
-    for (const Banded& method : banded()) {
+    for (const Banded& technique : banded()) {
         for (std::size_t frame = 0; frame < odd_rows().frame_count(); ++frame) {
-            SCOPED_TRACE(fmt::format("{}, frame {}", method.technique, frame));
-            Request one = banded_request(frame, method, method.one_band), several = banded_request(frame, method, method.bands);
+            SCOPED_TRACE(fmt::format("{}, frame {}", technique.technique, frame));
+            Request one = banded_request(frame, technique, technique.one_band),
+                    several = banded_request(frame, technique, technique.bands);
             one.outputs = several.outputs = {"color"};
             const auto whole = must(odd_rows().run(one)), parts = must(odd_rows().run(several));
             EXPECT_EQ(whole.images.at("color").texels, parts.images.at("color").texels);
-            EXPECT_GT(steps_called(parts, method.draw), steps_called(whole, method.draw));
+            EXPECT_GT(steps_called(parts, technique.draw), steps_called(whole, technique.draw));
         }
     }
 }
 
 TEST(Bands, AreDrawnRowByRowWithoutGapAndWithoutOverlap) {
-    for (const Banded& method : banded()) {
-        SCOPED_TRACE(method.technique);
-        const Plan plan = must(odd_rows().plan(banded_request(1, method, method.bands))).plan;
-        const std::vector<Rows> rows = rows_drawn(plan, method.draw, 69);
+    for (const Banded& technique : banded()) {
+        SCOPED_TRACE(technique.technique);
+        const Plan plan = must(odd_rows().plan(banded_request(1, technique, technique.bands))).plan;
+        const std::vector<Rows> rows = rows_drawn(plan, technique.draw, 69);
         EXPECT_GT(rows.size(), 2u);
         std::uint32_t next = 0;
         for (const Rows& band : rows) {
@@ -117,14 +120,14 @@ TEST(Bands, AreDrawnRowByRowWithoutGapAndWithoutOverlap) {
 }
 
 TEST(Bands, OfHalfResolutionAreDrawnInHalfTheRows) {
-    for (const Banded& method : {banded()[2], banded()[3]}) {
-        const Plan plan = must(odd_rows().plan(banded_request(2, method, method.bands))).plan;
+    for (const Banded& technique : {banded()[2], banded()[3]}) {
+        const Plan plan = must(odd_rows().plan(banded_request(2, technique, technique.bands))).plan;
         std::uint32_t next = 0;
-        for (const Rows& band : rows_drawn(plan, method.draw, 35)) {
+        for (const Rows& band : rows_drawn(plan, technique.draw, 35)) {
             EXPECT_EQ(band.first, next);
             next = band.first + band.count;
         }
-        EXPECT_EQ(next, 35u) << method.technique;
+        EXPECT_EQ(next, 35u) << technique.technique;
     }
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "replay/images/image_io.h"
 #include "tests/support/endless_ground.h"
 #include "tests/support/session.h"

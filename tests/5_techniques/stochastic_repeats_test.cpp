@@ -1,7 +1,9 @@
 // transparency/stochastic on a device: noise that is the same in every run, and in however many bands of rows it is made.
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "tests/support/agreement.h"
 #include "tests/support/session.h"
 
@@ -37,7 +39,7 @@ TEST(StochasticNoise, FallsWithTheRootOfTheNumberOfSubsamples) {
     const auto error = [](const char* samples) {
         Request request = on_scenario("smoke_grenade");
         request.choices = chosen({stochastic}, {samples, "correction=none", "subset=bernoulli"});
-        return must(session_of_scenarios().judge(request, Stage::transparency, Against::truth)).method.front().value;
+        return must(session_of_scenarios().judge(request, Stage::transparency, Against::truth)).technique_errors.front().value;
     };
     EXPECT_NEAR(error("samples=4") / error("samples=64"), 4, .6);
 }

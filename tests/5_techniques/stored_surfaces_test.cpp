@@ -197,7 +197,7 @@ Probed probed(const LayoutRow& row, Written written) {
     Image emission = target("emission", Format::rgba16f);
     if (row.targets == 3) g2 = target("gbuffer2", row.formats[2]);
     if (written == Written::probes) {
-        FullscreenPass probe = frame.graph.fullscreen("probe");
+        FullscreenStep probe = frame.graph.fullscreen("probe");
         probe.loads("Probes", input).covers(g0).covers(g1).covers(emission);
         if (row.targets == 3) probe.covers(g2);
     }

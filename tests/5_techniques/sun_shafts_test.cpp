@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "capture_format/view.h"
+#include "passes/frame_images.h"
+#include "passes/technique.h"
 #include "replay/images/image_io.h"
 #include "tests/support/session.h"
 

@@ -1,6 +1,8 @@
 // Where a G-buffer's attributes are shaded: at the pixel's center, for all samples of a triangle at once, or at every sample.
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
+#include "passes/frame_images.h"
 #include "passes/registry.h"
 #include "tests/support/agreement.h"
 #include "tests/support/print.h"
@@ -16,9 +18,9 @@ Accuracy judged(const std::string& technique, const char* scenario, const char* 
     return must(session_of_scenarios().judge(request, Stage::gbuffer, against));
 }
 
-double figure(const Accuracy& accuracy, std::string_view name) {
-    for (const Figure& figure : accuracy.method)
-        if (figure.name == name) return figure.value;
+double metric(const Accuracy& accuracy, std::string_view name) {
+    for (const Metric& metric : accuracy.technique_errors)
+        if (metric.name == name) return metric.value;
     throw std::logic_error("no figure " + std::string(name));
 }
 
@@ -50,9 +52,9 @@ TEST(GBufferPlaces, TexturesAndNormalMapsAreTheSamplesToo) {
 TEST(GBufferPlaces, NormalsAtRimsAreThoseOfTheTruthAtTheSampleAlone) {
     const Accuracy center = judged("gbuffer/octahedral", "materials", "attributes=center", Against::truth),
                    sample = judged("gbuffer/octahedral", "materials", "attributes=sample", Against::truth);
-    EXPECT_GT(figure(center, "normal angle rms"), 1);
-    EXPECT_LT(figure(sample, "normal angle rms"), .002);
-    EXPECT_LT(figure(sample, "normal angle worst"), .02);
+    EXPECT_GT(metric(center, "normal angle rms"), 1);
+    EXPECT_LT(metric(sample, "normal angle rms"), .002);
+    EXPECT_LT(metric(sample, "normal angle worst"), .02);
 }
 
 /// Samples lie sqrt(.125^2 + .375^2) = .395 of a pixel from its center. What is read at the center is so far beside the sample,
@@ -61,11 +63,11 @@ TEST(GBufferPlaces, PositionsLieUnderTheSampleWhereDepthIsTheSamples) {
     const Frame frame = scenario_frames("far_wall", 4).front();
     const double pixel = 2 / (double(frame.view.projection[0][0]) * frame.view.width);
     const double beside =
-        figure(judged("gbuffer/octahedral", "far_wall", "attributes=center", Against::truth), "position across");
+        metric(judged("gbuffer/octahedral", "far_wall", "attributes=center", Against::truth), "position across");
     EXPECT_GT(beside, .3 * pixel);
     EXPECT_LT(beside, .4 * pixel);
     const auto across = [&](const char* technique, const char* setting) {
-        return figure(judged(technique, "far_wall", setting, Against::truth), "position across");
+        return metric(judged(technique, "far_wall", setting, Against::truth), "position across");
     };
     EXPECT_LT(across("gbuffer/octahedral", "attributes=sample"), 1e-9);
     EXPECT_LT(across("gbuffer/depth_rebuilt", "attributes=center"), 1e-9) << "depth is always the sample's";

@@ -10,10 +10,12 @@
 #include <gtest/gtest.h>
 
 #include "captures/scenarios.h"
+#include "passes/frame_images.h"
 #include "passes/indirect/lpv/grids_model.h"
 #include "passes/lighting/mode_costs.h"
 #include "passes/reference/decoded.h"
 #include "passes/shaders/light_features.shared.h"
+#include "passes/technique.h"
 #include "replay/images/host_image.h"
 #include "replay/spectra/spectra.h"
 #include "tests/support/session.h"
@@ -24,7 +26,7 @@ namespace {
 using indirect::in_double::Grid;
 
 constexpr std::uint32_t tile = 16;     // pixels
-constexpr double slack = 1e-3;         // metres, and cells: nearer than this to a border, rounding may decide
+constexpr double slack = 1e-3;         // meters, and cells: nearer than this to a border, rounding may decide
 constexpr glm::dvec3 macro_cell(4.0);  // cells
 
 struct Box {

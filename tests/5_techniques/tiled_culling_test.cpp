@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/lighting/tiled/cull_mirror.h"
+#include "passes/scene/scene_facts.h"
 #include "passes/shaders/light_features.shared.h"
-#include "passes/shaders/scene.shared.h"
-#include "passes/stages.h"
 #include "replay/scene/scene_records.h"
 #include "tests/5_techniques/light_scenes.h"
 

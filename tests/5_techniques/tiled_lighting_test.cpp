@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/registry.h"
+#include "passes/frame_images.h"
 #include "tests/5_techniques/light_scenes.h"
 
 namespace strata {

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
+#include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "tests/support/agreement.h"
 #include "tests/support/session.h"
 

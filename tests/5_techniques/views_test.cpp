@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "replay/images/image_io.h"
 #include "tests/support/session.h"
 

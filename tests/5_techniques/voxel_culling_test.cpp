@@ -5,10 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "passes/transparency/functions/model.h"
 #include "passes/transparency/voxel/slices/depth_curve.h"
-#include "passes/transparency/voxel/thick_events/segment_model.h"
+#include "passes/transparency/voxel/thick_fragments/segment_model.h"
 #include "passes/transparency/voxel/volume/column.h"
 #include "passes/transparency/voxel/volume/volume.h"
 #include "tests/5_techniques/voxel_name.h"
@@ -92,7 +95,7 @@ TEST(VoxelCulling, LeavesUnshadedWhatDenseSmokeHides) {
     EXPECT_LT(shaded("culling=quads_16"), shaded("culling=quads_32"));
 }
 
-/// 64 places of the eye. Culling acts at some of them only.
+/// 64 places of the eye. Culling applies at some of them only.
 std::vector<Request> camera_path() {
     std::vector<Request> places;
     for (int i = 0; i < 64; ++i) places.push_back({.variant = {.extent_divisor = 2, .eye = {.dolly = .02 * i, .pan = .004 * i}}});
@@ -181,7 +184,7 @@ std::size_t pixels_losing_something(const FragmentLists& lists, const Frame& fra
     std::size_t losing = 0;
     for (std::uint32_t pixel = 0; pixel < view.width * view.height; ++pixel) {
         const std::span<const Fragment> fragments = lists.at(pixel % view.width, pixel / view.width);
-        Column column(format);
+        transparency::Column column(format);
         for (const Fragment& f : fragments)
             column.add(split_code(format, slice_place(curve.slice_of(f.depth), format.slices, params.splatting),
                                   format.codes(channel_depth(f, 0, 1)), .5));

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
+#include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "passes/transparency/voxel/factors/model.h"
 #include "tests/5_techniques/voxel_name.h"
 #include "tests/support/agreement.h"

@@ -1,7 +1,9 @@
-// Thick events of transparency/voxel on a device (docs/algorithms/transparency.md 6.5, thick objects).
+// Thick fragments of transparency/voxel on a device (docs/algorithms/transparency.md 6.5, thick objects).
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "tests/5_techniques/voxel_name.h"
 #include "tests/support/agreement.h"
 #include "tests/support/session.h"

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/voxel/sparse/sparse_model.h"
-#include "passes/transparency/voxel/thick_events/segment_model.h"
+#include "passes/transparency/voxel/thick_fragments/segment_model.h"
 #include "passes/transparency/voxel/volume/dimensions.h"
 #include "tests/5_techniques/voxel_name.h"
 #include "tests/support/agreement.h"

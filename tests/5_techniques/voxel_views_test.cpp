@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
+#include "passes/frame_images.h"
 #include "replay/images/image_io.h"
 #include "tests/5_techniques/voxel_name.h"
 #include "tests/support/session.h"

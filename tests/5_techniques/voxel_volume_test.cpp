@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
+#include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/session/choice_text.h"
 #include "tests/5_techniques/voxel_name.h"
 #include "tests/support/agreement.h"

@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame_features.h"
+#include "capture_format/frame.h"
+#include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/stages.h"
 #include "replay/images/image_io.h"
 #include "tests/support/agreement.h"
 #include "tests/support/print.h"
@@ -34,9 +36,9 @@ std::size_t rain_steps(const Run& run) {
     return std::size_t(std::ranges::count_if(run.steps, [](const StepRecord& step) { return step.scope.stage == Stage::rain; }));
 }
 
-std::vector<double> numbers(const std::vector<Figure>& figures) {
+std::vector<double> numbers(const std::vector<Metric>& metrics) {
     std::vector<double> values;
-    for (const Figure& figure : figures) values.push_back(figure.value);
+    for (const Metric& metric : metrics) values.push_back(metric.value);
     return values;
 }
 
@@ -174,9 +176,9 @@ TEST(WetSurfaces, AreNotWhatEarlierStagesAreJudgedBy) {
         const Accuracy wet = must(session->judge(request, stage, Against::model_and_truth));
         request.variant.frame = 1;
         const Accuracy dry = must(session->judge(request, stage, Against::model_and_truth));
-        EXPECT_EQ(numbers(wet.method), numbers(dry.method)) << name(stage);
+        EXPECT_EQ(numbers(wet.technique_errors), numbers(dry.technique_errors)) << name(stage);
         EXPECT_EQ(wet.model_worst, dry.model_worst) << name(stage);
-        EXPECT_FALSE(wet.method.empty());
+        EXPECT_FALSE(wet.technique_errors.empty());
     }
 }
 

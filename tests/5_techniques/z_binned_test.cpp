@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "captures/scenarios.h"
+#include "passes/frame_images.h"
 #include "passes/lighting/z_binned/z_bins.h"
 #include "passes/reference/shade.h"
 #include "passes/scene/shadow_views.h"

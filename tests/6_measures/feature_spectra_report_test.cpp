@@ -8,7 +8,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "capture_format/reader.h"
+#include "passes/technique.h"
 #include "replay/spectra/spectra.h"
+#include "tests/support/errors.h"
 
 namespace strata {
 namespace {
@@ -98,7 +101,7 @@ public:
     }
 
 private:
-    static Error not_asked() { return fail_unnamed(Fault::usage, "a formula has no such thing"); }
+    static Error not_asked() { return fail(Fault::usage, "test.not_asked", "a formula has no such thing"); }
     DeviceInfo device_;
 };
 
@@ -169,11 +172,9 @@ TEST(MeasuredCosts, OfACaptureThatDoesNotOpenAreItsError) {
     const std::vector<FrameSpectra> frames = gathered();
     CostQuestion asked = question(technique, frames);
     asked.open = [](const std::string&) -> Result<std::unique_ptr<Session>> {
-        return fail_unnamed(Fault::bad_input, "it is gone");
+        return fail(Fault::bad_input, "test.is_gone", "it is gone");
     };
-    const auto costs = measured_costs(asked);
-    ASSERT_FALSE(costs);
-    EXPECT_EQ(costs.error().sentence, "it is gone");
+    EXPECT_THAT(measured_costs(asked), FailsWith("test.is_gone"));
 }
 
 /// Cycles by the weights, of those modes alone that are asked for, as a compiler would say; and no mode twice.

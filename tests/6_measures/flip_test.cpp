@@ -1,5 +1,6 @@
 // FLIP: what it says of pictures whose answer is known, against its model in double, and against the reference program's figures.
 #include <cmath>
+#include <cstring>
 #include <random>
 #include <set>
 
@@ -55,10 +56,10 @@ TEST(Flip, OfEqualPicturesIsNothing) {
 }
 
 TEST(Flip, OfUniformPicturesIsTheReferenceProgramsFigure) {
-    const float grey = decode_srgb(128.f / 255);
+    const float gray = decode_srgb(128.f / 255);
     EXPECT_NEAR(display_flip(uniform(0, 0, 0), uniform(1, 1, 1)).mean, .967388, mean_tolerance);
     EXPECT_NEAR(display_flip(uniform(1, 0, 0), uniform(0, 0, 1)).mean, .965082, mean_tolerance);
-    EXPECT_NEAR(display_flip(uniform(0, 0, 0), uniform(grey, grey, grey)).mean, .933897, mean_tolerance);
+    EXPECT_NEAR(display_flip(uniform(0, 0, 0), uniform(gray, gray, gray)).mean, .933897, mean_tolerance);
 }
 
 TEST(Flip, OfDisplayLightIsWhatTheModelInDoubleSays) {
@@ -190,8 +191,8 @@ TEST_F(Desk, NoiseIsTheReferenceProgramsFigureWithinTheSpreadOfSeeds) {
     std::mt19937 random(1);
     std::normal_distribution<float> noise(0, .02f);
     for (std::size_t i = 0; i < noisy.rgb[0].size(); ++i) {
-        const float grey = noise(random);
-        for (std::vector<float>& plane : noisy.rgb) plane[i] = std::max(0.f, plane[i] + grey);
+        const float gray = noise(random);
+        for (std::vector<float>& plane : noisy.rgb) plane[i] = std::max(0.f, plane[i] + gray);
     }
     // The program's seed is not known; seeds gave means from .012715 to .012945.
     EXPECT_NEAR(radiance_flip(reference, noisy).mean, .012742, 3e-4);

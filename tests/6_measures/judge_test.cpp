@@ -8,10 +8,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
 #include "passes/reference/fragments.h"
-#include "replay/session/frame_plan.h"
-#include "replay/session/judgement.h"
+#include "passes/stage_input.h"
+#include "passes/technique.h"
+#include "replay/session/judgment.h"
 
 namespace strata {
 namespace {
@@ -20,7 +22,7 @@ using testing::HasSubstr;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
 
-/// A method of the transparency stage whose model gives the images that were there before.
+/// A technique of the transparency stage whose model gives the images that were there before.
 struct Judged {
     Technique technique{.stage = Stage::transparency,
                         .name = "transparency/made_here",
@@ -207,12 +209,12 @@ TEST(Judge, MeasuresWhatTheStageTouchesAlsoAlone) {
     truth.at("color").at(1, 0) = glm::dvec4(3);
     judged.got().at(1, 0) = glm::dvec4(3.3);
     const Accuracy accuracy = judged.against_truth(truth);
-    const auto relative = [](const std::vector<Figure>& figures) {
-        return std::ranges::find(figures, "relative rmse", &Figure::name)->value;
+    const auto relative = [](const std::vector<Metric>& metrics) {
+        return std::ranges::find(metrics, "relative rmse", &Metric::name)->value;
     };
     EXPECT_DOUBLE_EQ(accuracy.touched_share, 1. / 12);
     EXPECT_NEAR(relative(accuracy.touched), .1, 1e-12);
-    EXPECT_NEAR(relative(accuracy.method), std::sqrt(.09 / (11 * 4 + 9)), 1e-12);
+    EXPECT_NEAR(relative(accuracy.technique_errors), std::sqrt(.09 / (11 * 4 + 9)), 1e-12);
     EXPECT_TRUE(judged.against_truth(judged.model).touched.empty()) << "nothing is drawn over";
 }
 
@@ -224,11 +226,11 @@ TEST(Judge, SaysHowManySamplesItLeavesOut) {
     color.undecided.assign(color.texels.size(), false);
     color.undecided[color.index(1, 0, 0)] = true;
     const Accuracy some = judged.against_truth(truth);
-    EXPECT_DOUBLE_EQ(some.left_out_share, 1. / 12);
+    EXPECT_DOUBLE_EQ(some.undecided_share, 1. / 12);
     EXPECT_DOUBLE_EQ(some.touched_share, 2. / 12) << "also what is left out is touched";
     color.undecided.assign(color.texels.size(), true);
     const Accuracy none = judged.against_truth(truth);
-    EXPECT_TRUE(none.method.empty()) << "not an error of 0";
+    EXPECT_TRUE(none.technique_errors.empty()) << "not an error of 0";
     EXPECT_EQ(none.not_supported, "no sample can be judged: rounding decides what each of them shows");
 }
 
@@ -258,8 +260,8 @@ TEST(Judge, ComparesNoSampleWhoseCoverageHangsOnTheStepsOfTheDevice) {
     EXPECT_EQ(at(256, Against::model).model_worst, .5);
     EXPECT_EQ(at(16, Against::model).model_worst, 0);
     EXPECT_EQ(at(16, Against::model).undecided, count);
-    EXPECT_GT(at(256, Against::truth).method.front().value, 0);
-    EXPECT_EQ(at(16, Against::truth).method.front().value, 0);
+    EXPECT_GT(at(256, Against::truth).technique_errors.front().value, 0);
+    EXPECT_EQ(at(16, Against::truth).technique_errors.front().value, 0);
 }
 
 /// No model reads them.
@@ -275,18 +277,18 @@ TEST(Judge, RefusesATruthOfAnotherExtentAndCallsEveryFigureInfinite) {
     Judged judged;
     const ImageSet equal = judged.result;
     EXPECT_EQ(judged.against_truth(equal).incomparable, "");
-    EXPECT_EQ(judged.against_truth(equal).method.front().value, 0);
+    EXPECT_EQ(judged.against_truth(equal).technique_errors.front().value, 0);
     const ImageSet larger{{"color", ReferenceImage(6, 4, 2, glm::dvec4(2))}};
     const Accuracy accuracy = judged.against_truth(larger);
     EXPECT_EQ(accuracy.incomparable, "color is 3 x 2 with 2 layers, the truth's is 6 x 4 with 2 layers");
-    ASSERT_EQ(accuracy.method.size(), judged.against_truth(equal).method.size());
-    for (const Figure& figure : accuracy.method) EXPECT_EQ(figure.value, infinity) << figure.name;
+    ASSERT_EQ(accuracy.technique_errors.size(), judged.against_truth(equal).technique_errors.size());
+    for (const Metric& metric : accuracy.technique_errors) EXPECT_EQ(metric.value, infinity) << metric.name;
     EXPECT_EQ(accuracy.flip, std::nullopt);
 
     judged.result.clear();
     EXPECT_EQ(judged.against_truth(equal).incomparable, "the truth has color, the result does not have it");
     EXPECT_EQ(judged.against_truth({}).incomparable, "the truth of transparency gives no image of this frame");
-    EXPECT_EQ(judged.against_truth({}).method.front().value, infinity);
+    EXPECT_EQ(judged.against_truth({}).technique_errors.front().value, infinity);
 }
 
 }  // namespace

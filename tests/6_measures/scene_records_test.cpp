@@ -24,10 +24,10 @@ Frame moved_by(Frame frame, const glm::dvec3& by) {
 
 double apart(const glm::vec3& a, const glm::vec3& b) { return double(glm::length(a - b)); }
 
-// 10 000 km away a float is good to half a metre, a double to 2 nm.
+// 10 000 km away a float is good to half a meter, a double to 2 nm.
 constexpr double no_farther_apart = 1e-5;
 
-TEST(SceneRecords, AreTheSameTenThousandKilometresFromTheOrigin) {
+TEST(SceneRecords, AreTheSameTenThousandKilometersFromTheOrigin) {
     for (const std::string_view scenario : {"glass_and_smoke", "light_types", "blocker_rooms"}) {
         const Frame frame = (*find_scenario(scenario))->build(0, {.width = 32, .height = 18});
         const Frame moved = moved_by(frame, {7.1e6, -3.3e5, 7.0e6});

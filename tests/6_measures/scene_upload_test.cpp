@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "captures/scenarios.h"
+#include "passes/scene/scene_facts.h"
 #include "replay/scene/device_scene.h"
 
 namespace strata {
@@ -16,7 +17,7 @@ public:
     std::optional<std::uint64_t> failing;  ///< the import whose upload fails
 
     void upload(ImportId id, std::span<const std::byte> bytes) override {
-        if (failing == id.key) throw DeviceFailure("no memory");
+        if (failing == id.key) throw DeviceFailure("test.no_memory", "no memory");
         held[id.key].assign(bytes.begin(), bytes.end());
         uploaded_bytes += bytes.size();
     }

@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
+#include "passes/technique.h"
 #include "replay/isa/isa_report.h"
+#include "tests/support/errors.h"
 
 namespace strata {
 namespace {
@@ -48,7 +51,7 @@ struct Joined {
         const std::size_t pipeline = requests.pipelines.size();
         PipelineRequest& request = requests.pipelines.emplace_back();
         request.step.step.fixed = {{"mode", mode}};
-        gpu.passes.push_back({.scope = {ScopeKind::act, stage, stage, other}, .pipeline = pipeline});
+        gpu.steps.push_back({.scope = {ScopeKind::pass, stage, stage, other}, .pipeline = pipeline});
         const ShaderResources taken{.registers = registers, .group_threads = 256, .wave_lanes = 64};
         gpu.programs.push_back(
             {.pipeline = pipeline, .stage = "compute", .registers = registers, .occupancy = occupancy(bonaire(), taken)});
@@ -78,20 +81,18 @@ TEST(TileWaves, AreNotMadeUpWhereTheCompilerSaysNothingOfAMode) {
     Joined joined;
     joined.gpu.programs.back().occupancy.reset();
     const auto made = joined.waves();
-    ASSERT_FALSE(made);
+    ASSERT_THAT(made, FailsWith("isa.no_occupancy", Field("gpu", "bonaire"), Field("constant", "mode"), Field("variant", 2)));
     EXPECT_EQ(made.error().fault, Fault::device_lacks);
-    EXPECT_EQ(made.error().sentence, "bonaire does not tell how many waves of mode 2 fit a SIMD");
 }
 
 TEST(TileWaves, OfAFrameWithoutTheStageSayWhy) {
     Joined joined;
     joined.run.skipped.push_back({Stage::lighting, "the frame has no lights"});
-    const auto skipped = joined.waves();
-    ASSERT_FALSE(skipped);
-    EXPECT_EQ(skipped.error().sentence, "lighting/some shades no tile: the frame has no lights");
+    EXPECT_THAT(joined.waves(), FailsWith("isa.no_shaded_tile", Field("technique", "lighting/some"),
+                                          Field("reason", joined.run.skipped.back().reason)));
     Joined empty;
     for (std::vector<double>& row : empty.run.tables["lighting/some:modes"].rows) row.back() = 0;
-    EXPECT_EQ(empty.waves().error().sentence, "lighting/some shades no tile: nothing opaque is in view");
+    EXPECT_THAT(empty.waves(), FailsWith("isa.no_shaded_tile", Field("reason", testing::HasSubstr("opaque"))));
 }
 
 TEST(TileWaves, AreDrawnInColorsThatTheLegendHasToo) {

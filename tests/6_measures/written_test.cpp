@@ -55,7 +55,7 @@ Comparison broken() {
     values[4] = std::nanf("");
     ImageComparison made = *compare_images("color", a, image(values, 2), {});
     const FrameComparison frame{.frame = 3,
-                                .acts = {{"combine <at> film", "x \"1\"", "y & z", {made}}},
+                                .passes = {{"combine <at> film", "x \"1\"", "y & z", {made}}},
                                 .divergence = {"combine <at> film", "color", "step '1' \x01"},
                                 .verdict = Verdict::over};
     return {.a = {.name = "a&b\xff\n.strata"}, .b = {.name = "b"}, .frames = {frame}, .rerun = "strata diff 'a&b.strata' <x>"};
@@ -68,7 +68,7 @@ TEST(Junit, IsWellFormedWhateverNamesHold) {
     EXPECT_EQ(not_well_formed(as_junit(broken(), {{"f0003.combine_<at>_film.color", "out/<1>.png"}})), "");
 }
 
-TEST(Junit, HasACasePerActAndImageWithItsFailureItsFilesAndTheCommand) {
+TEST(Junit, HasACasePerPassAndImageWithItsFailureItsFilesAndTheCommand) {
     const std::string xml = as_junit(broken(), {{"f0003.combine_<at>_film.color", "out/1.png"}});
     EXPECT_THAT(xml, HasSubstr("tests=\"1\" failures=\"1\""));
     EXPECT_THAT(xml, HasSubstr("<testsuite name=\"a&amp;b\xef\xbf\xbd&#10;.strata frame 3\"")) << "a line's end stays one";
@@ -79,7 +79,7 @@ TEST(Junit, HasACasePerActAndImageWithItsFailureItsFilesAndTheCommand) {
 
 TEST(ComparisonJson, SaysWhatJsonHasNoNumberFor) {
     const auto json = nlohmann::json::parse(as_json(broken()));
-    const auto& image = json["frames"][0]["acts"][0]["images"][0];
+    const auto& image = json["frames"][0]["passes"][0]["images"][0];
     EXPECT_EQ(json["schema"], "strata.diff");
     EXPECT_EQ(image["error"]["worst_pixel"]["b"], "nan");
     EXPECT_EQ(image["error"]["worst_pixel"]["x"], 1);

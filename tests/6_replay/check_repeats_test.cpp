@@ -2,15 +2,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "replay/session/repeat.h"
+#include "capture_format/reader.h"
+#include "passes/frame_images.h"
+#include "replay/cli/repeat.h"
+#include "tests/support/errors.h"
 #include "tests/support/session.h"
 
 namespace strata {
 namespace {
 
-/// One image of one act, or its first image.
+/// One image of one pass, or its first image.
 struct FlippedBit {
-    std::string act, image;
+    std::string pass, image;
 };
 
 /// Another session, of which one bit of one image flips in one run.
@@ -28,9 +31,9 @@ public:
     Result<Run> run(const Request& request) override {
         auto run = recorded_ ? Result<Run>(*recorded_) : steady_->run(request);
         if (runs_++ != flips_at_) return run;
-        for (ActImages& act : run->acts) {
-            if (act.label != flip_.act) continue;
-            const auto image = flip_.image.empty() ? act.images.begin() : act.images.find(flip_.image);
+        for (PassImages& pass : run->passes) {
+            if (pass.label != flip_.pass) continue;
+            const auto image = flip_.image.empty() ? pass.images.begin() : pass.images.find(flip_.image);
             image->second.texels.back() ^= std::byte{1};
         }
         return run;
@@ -63,54 +66,51 @@ private:
     const Run* recorded_ = nullptr;
 };
 
-Request with_acts() { return {.acts = Acts::brought_back}; }
+Request with_passes() { return {.passes = Passes::read_back}; }
 
-TEST(CheckRepeats, NamesTheFirstActThatVariesAndWhereItRan) {
+TEST(CheckRepeats, NamesTheFirstPassThatVariesAndWhereItRan) {
     const auto steady = scenario_session("three_panes");
     Flickering flickering(*steady, {"transparency", ""}, 3);
-    const auto first = must(flickering.run(with_acts()));
-    EXPECT_TRUE(check_repeats(flickering, with_acts(), first, 3));
-    const auto checked = check_repeats(flickering, with_acts(), first, 5);
-    ASSERT_FALSE(checked);
+    const auto first = must(flickering.run(with_passes()));
+    EXPECT_TRUE(check_repeats(flickering, with_passes(), first, 3));
+    const auto checked = check_repeats(flickering, with_passes(), first, 5);
+    ASSERT_THAT(checked, FailsWith("session.not_repeatable", Field("pass", "transparency"), Field("image", "color"),
+                                   Field("differing", 1)));
     EXPECT_EQ(checked.error().fault, Fault::not_repeatable);
-    EXPECT_THAT(checked.error().sentence, testing::HasSubstr("transparency is the first pass that varies: 'color' in 1 of "));
     for (const std::string& part : {steady->device().name, steady->device().driver, steady->device().cpu})
-        EXPECT_THAT(checked.error().sentence, testing::HasSubstr(part));
+        EXPECT_THAT(checked, FailsWith("session.not_repeatable", Field("device", testing::HasSubstr(part))));
 }
 
-TEST(CheckRepeats, LooksAtEveryActNotAtThePictureAlone) {
+TEST(CheckRepeats, LooksAtEveryPassNotAtThePictureAlone) {
     const auto steady = scenario_session("three_panes");
     Flickering flickering(*steady, {"gbuffer", ""}, 1);  // nothing after it sees the flip
-    const auto first = must(flickering.run(with_acts()));
-    const auto checked = check_repeats(flickering, with_acts(), first, 2);
-    ASSERT_FALSE(checked);
-    EXPECT_THAT(checked.error().sentence, testing::HasSubstr("gbuffer is the first pass that varies"));
+    const auto first = must(flickering.run(with_passes()));
+    EXPECT_THAT(check_repeats(flickering, with_passes(), first, 2),
+                FailsWith("session.not_repeatable", Field("pass", "gbuffer")));
 }
 
-TEST(CheckRepeats, LooksAtEveryImageOfEveryActFromTheFirstToTheLast) {
+TEST(CheckRepeats, LooksAtEveryImageOfEveryPassFromTheFirstToTheLast) {
     const auto steady = scenario_session("three_panes");
-    const auto first = must(steady->run(with_acts()));
-    ASSERT_GT(first.acts.size(), 3u);
-    for (const ActImages& act : first.acts)
-        for (const auto& [name, image] : act.images) {
-            Flickering flickering(*steady, {act.label, name}, 0);
+    const auto first = must(steady->run(with_passes()));
+    ASSERT_GT(first.passes.size(), 3u);
+    for (const PassImages& pass : first.passes)
+        for (const auto& [name, image] : pass.images) {
+            Flickering flickering(*steady, {pass.label, name}, 0);
             flickering.repeat(first);
-            const auto checked = check_repeats(flickering, with_acts(), first, 2);
-            ASSERT_FALSE(checked) << act.label << " " << name;
-            EXPECT_THAT(checked.error().sentence,
-                        testing::HasSubstr(fmt::format("{} is the first pass that varies: '{}' in 1 of", act.label, name)));
+            EXPECT_THAT(
+                check_repeats(flickering, with_passes(), first, 2),
+                FailsWith("session.not_repeatable", Field("pass", pass.label), Field("image", name), Field("differing", 1)));
         }
 }
 
 TEST(CheckRepeats, LooksAtTheLastRepeat) {
     const auto steady = scenario_session("three_panes");
-    const auto first = must(steady->run(with_acts()));
+    const auto first = must(steady->run(with_passes()));
     constexpr std::size_t repeats = 4;  // the run that is given and three more
     Flickering flickering(*steady, {"transparency", ""}, repeats - 2);
     flickering.repeat(first);
-    const auto checked = check_repeats(flickering, with_acts(), first, repeats);
-    ASSERT_FALSE(checked);
-    EXPECT_THAT(checked.error().sentence, testing::HasSubstr("repeat 4 of 4"));
+    EXPECT_THAT(check_repeats(flickering, with_passes(), first, repeats),
+                FailsWith("session.not_repeatable", Field("repeat", repeats), Field("repeats", repeats)));
 }
 
 }  // namespace

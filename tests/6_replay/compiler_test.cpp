@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/shader_interop.h"
 #include "replay/isa/compile_elsewhere.h"
 #include "replay/isa/occupancy.h"
 #include "tests/support/glsl.h"

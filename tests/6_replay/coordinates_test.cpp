@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
+#include "passes/frame_images.h"
 #include "passes/reference/raster.h"
 #include "tests/support/session.h"
 

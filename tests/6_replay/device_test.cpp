@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "passes/stages.h"
 #include "replay/gpu/library_build.h"
 #include "tests/support/device.h"
 #include "tests/support/second_device.h"

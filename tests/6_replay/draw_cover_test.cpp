@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
+#include "passes/frame_images.h"
 #include "passes/reference/fragments.h"
+#include "tests/support/errors.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -60,7 +63,7 @@ TEST(DrawCover, FollowsTheEye) {
     const std::uint32_t draw = opaque_draws(must(session->frame(0))).front();
     EXPECT_GT(std::ranges::count(must(session->draw_cover({}, draw)), Cover::shown), 0);
     EXPECT_EQ(std::ranges::count(must(session->draw_cover({.variant = {.eye = {.dolly = 1000}}}, draw)), Cover::shown), 0);
-    EXPECT_THAT(session->draw_cover({}, 1000).error().sentence, testing::HasSubstr("there is no draw 1000"));
+    EXPECT_THAT(session->draw_cover({}, 1000), FailsWith("frame.no_draw", Field("draw", 1000)));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // lower samples of the row above through, so the shader leaves that row out.
 #include <gtest/gtest.h>
 
+#include "passes/shader_interop.h"
 #include "tests/support/session.h"
 #include "tests/support/test_frame.h"
 

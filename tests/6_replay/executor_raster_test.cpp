@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/frame_images.h"
+#include "replay/scene/scene_records.h"
 #include "tests/support/session.h"
 #include "tests/support/test_frame.h"
 
@@ -258,12 +259,12 @@ TEST(Raster, CompositesWithATransmittancePerChannel) {
 
 TEST(Raster, CompositesWithOneTransmittanceAndKeepsAlpha) {
     RasterFrame frame;
-    frame.shader("grey.frag", R"(
+    frame.shader("gray.frag", R"(
         layout(location = 0) out vec4 out_light;  // a: transmittance
         void main() { out_light = vec4(1, 2, 3, 0.25); })");
     Image target = frame.graph.create("target", {.extent = {16, 8}, .format = Format::rgba32f});
     frame.graph.clear(target, {{8, 8, 8, 7}});
-    frame.graph.fullscreen("grey").composites_grey(target);
+    frame.graph.fullscreen("gray").composites_gray(target);
     EXPECT_EQ(texel(frame.result(target), 9, 3), glm::dvec4(3, 4, 5, 7));
 }
 

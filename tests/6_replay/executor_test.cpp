@@ -273,7 +273,7 @@ TEST(Executor, TimesEveryStep) {
 TEST(Executor, NamesTheStepThatFails) {
     TestFrame frame;
     Image image = frame.graph.create("missing import", {.format = Format::r32f});
-    frame.graph.enter({ScopeKind::act, Stage::rain, Stage::film, "rain/some"});
+    frame.graph.enter({ScopeKind::pass, Stage::rain, Stage::film, "rain/some"});
     frame.graph.clear(image, {{1}});
     frame.graph.keep(image);
     Plan plan = frame.plan();

@@ -1,10 +1,16 @@
 // What a replay is expected to give: the order in which it is judged, and what is said when it is something else.
+#include <limits>
+
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "capture_format/expectation_writer.h"
+#include "capture_format/reader.h"
 #include "capture_format/recorder.h"
+#include "passes/frame_images.h"
 #include "replay/expectations/expectation_check.h"
+#include "replay/expectations/expectation_keys.h"
 #include "replay/images/image_io.h"
 #include "tests/support/session.h"
 
@@ -20,22 +26,22 @@ HostImage image_of(const std::vector<float>& values) {
     return {small, {bytes.begin(), bytes.end()}};
 }
 
-/// A frame of two acts with an image each; the second one's texels are given.
+/// A frame of two passes with an image each; the second one's texels are given.
 struct Given {
     Run run;
     Expectation expectation;
 
     explicit Given(const std::vector<float>& second, std::string device = "this device") {
-        run.acts = {{Stage::gbuffer, Stage::gbuffer, "gbuffer", "gbuffer/any", {}},
-                    {Stage::lighting, Stage::lighting, "lighting", "lighting/any strength=2", {}}};
-        run.acts[0].images["normal"] = image_of({1, 2, 3, 4, 5, 6, 7, 8});
-        run.acts[1].images["color"] = image_of(second);
+        run.passes = {{Stage::gbuffer, Stage::gbuffer, "gbuffer", "gbuffer/any", {}},
+                      {Stage::lighting, Stage::lighting, "lighting", "lighting/any strength=2", {}}};
+        run.passes[0].images["normal"] = image_of({1, 2, 3, 4, 5, 6, 7, 8});
+        run.passes[1].images["color"] = image_of(second);
         expectation.on = {
             .device = std::move(device), .driver = "driver", .driver_version = "1", .cpu = "cpu", .vector_width = 8};
-        for (const ActImages& act : run.acts) {
-            expectation.acts.push_back({act.label, act.choice, {}});
-            for (const auto& [name, image] : act.images)
-                expectation.acts.back().images.push_back({name, hash_of(image), image.shape, ""});
+        for (const PassImages& pass : run.passes) {
+            expectation.passes.push_back({pass.label, pass.choice, {}});
+            for (const auto& [name, image] : pass.images)
+                expectation.passes.back().images.push_back({name, hash_of(image), image.shape, ""});
         }
     }
 };
@@ -50,9 +56,9 @@ public:
         must(recorder.finish());
         ExpectationWriter writer = must(ExpectationWriter::extend(path_));
         for (Given& one : given) {
-            for (std::size_t i = 0; images == Images::kept && i < one.run.acts.size(); ++i)
-                for (ExpectedImage& image : one.expectation.acts[i].images)
-                    image.texels = writer.add_image(one.run.acts[i].images.at(image.name).texels);
+            for (std::size_t i = 0; images == Images::kept && i < one.run.passes.size(); ++i)
+                for (ExpectedImage& image : one.expectation.passes[i].images)
+                    image.texels = writer.add_image(one.run.passes[i].images.at(image.name).texels);
             must(writer.add(as_json(one.expectation)));
         }
         must(writer.finish());
@@ -73,16 +79,31 @@ const std::vector<float> plain = {1, 1, 1, 1, 1, 1, 1, 1}, brighter = {1, 1, 1, 
 TEST(Expectation, SurvivesJson) {
     Expectation e = Given(plain).expectation;
     e.frame = 3, e.samples = 4, e.forced = {"rain"}, e.tool = "0123456789ab";
-    e.acts[0].images[0].texels = std::string(32, 'a');
+    e.passes[0].images[0].texels = std::string(32, 'a');
     const Expectation again = must(parse_expectation(as_json(e)));
     EXPECT_EQ(as_json(again), as_json(e));
     EXPECT_TRUE(same_frame_and_choices(again, e));
     EXPECT_EQ(again.on, e.on);
-    EXPECT_EQ(again.acts[1].images[0].shape, small);
+    EXPECT_EQ(again.passes[1].images[0].shape, small);
+}
+
+TEST(Expectation, OfTheFirstSchemaVersionIsRead) {
+    const Expectation e = Given(plain).expectation;
+    std::string first = as_json(e);
+    const ExpectationKeys now = expectation_keys(expectation_version), then = expectation_keys(1);
+    const auto replace = [&](const std::string& from, const std::string& to) {
+        for (std::size_t at = first.find(from); at != std::string::npos; at = first.find(from, at + to.size()))
+            first.replace(at, from.size(), to);
+    };
+    replace(fmt::format("\"schema_version\":{}", expectation_version), "\"schema_version\":1");
+    replace(fmt::format("\"{}\"", now.passes), fmt::format("\"{}\"", then.passes));
+    replace(fmt::format("\"{}\"", now.pass), fmt::format("\"{}\"", then.pass));
+    ASSERT_NE(first, as_json(e));
+    EXPECT_EQ(as_json(must(parse_expectation(first))), as_json(e));
 }
 
 TEST(Expectation, WhatIsNoneIsBadInput) {
-    for (const char* text : {"", "display 1234", "{}", "[]", R"({"schema": "strata.expectation", "schema_version": 2})"}) {
+    for (const char* text : {"", "display 1234", "{}", "[]", R"({"schema": "strata.expectation", "schema_version": 3})"}) {
         const auto parsed = parse_expectation(text);
         ASSERT_FALSE(parsed) << text;
         EXPECT_EQ(parsed.error().fault, Fault::bad_input) << text;
@@ -96,10 +117,10 @@ TEST(Expectation, EqualHashesAreExact) {
     EXPECT_EQ(verdict.images.size(), 2u);
 }
 
-TEST(Expectation, TheFirstActThatDivergesIsNamed) {
+TEST(Expectation, TheFirstPassThatDivergesIsNamed) {
     const auto verdict = Expecting({Given(plain)}).verdict(Given(brighter));
     ASSERT_EQ(verdict.agreement, Agreement::diverges);
-    EXPECT_EQ(verdict.first_divergence()->act, "lighting");
+    EXPECT_EQ(verdict.first_divergence()->pass, "lighting");
     EXPECT_THAT(sentence(*verdict.first_divergence()), HasSubstr("lighting: 'color' has hash"));
 }
 
@@ -149,7 +170,7 @@ TEST(Expectation, TheNewestForADeviceCounts) {
 TEST(Expectation, OtherChoicesAndOtherFramesExpectNothing) {
     const Expecting capture({Given(plain)});
     Given other_choice(plain), other_frame(plain);
-    other_choice.expectation.acts[1].choice = "lighting/any strength=3";
+    other_choice.expectation.passes[1].choice = "lighting/any strength=3";
     other_frame.expectation.frame = 1;
     EXPECT_EQ(capture.verdict(other_choice).agreement, Agreement::no_expectation);
     EXPECT_EQ(capture.verdict(other_frame).agreement, Agreement::no_expectation);
@@ -172,8 +193,8 @@ TEST(Expectation, ThisDevicesOwnDecidesEvenWhereAnotherAgrees) {
 
 TEST(Expectation, AnImageMoreOrLessDiverges) {
     Given more(plain);
-    more.run.acts[0].images["extra"] = image_of(plain);
-    more.expectation.acts[0].images.insert(more.expectation.acts[0].images.begin(), {"extra", "0", small, ""});
+    more.run.passes[0].images["extra"] = image_of(plain);
+    more.expectation.passes[0].images.insert(more.expectation.passes[0].images.begin(), {"extra", "0", small, ""});
     EXPECT_THAT(sentence(*Expecting({Given(plain)}).verdict(more).first_divergence()), HasSubstr("was not expected at all"));
     EXPECT_THAT(sentence(*Expecting({more}).verdict(Given(plain)).first_divergence()), HasSubstr("is not there"));
 }

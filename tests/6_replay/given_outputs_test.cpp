@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
+#include "passes/stages.h"
+#include "tests/support/errors.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -9,12 +12,12 @@ namespace {
 
 using testing::HasSubstr;
 
-/// What the own act of a stage gave, in double.
+/// What the own pass of a stage gave, in double.
 ImageSet outputs_of(Session& session, const Request& request, Stage stage) {
     ImageSet outputs;
-    for (const ActImages& act : must(session.act_images(request)))
-        if (act.stage == stage && act.at == stage)
-            for (const auto& [name, image] : act.images) outputs.emplace(name, in_double(image));
+    for (const PassImages& pass : must(session.pass_images(request)))
+        if (pass.stage == stage && pass.at == stage)
+            for (const auto& [name, image] : pass.images) outputs.emplace(name, in_double(image));
     return outputs;
 }
 
@@ -69,15 +72,12 @@ TEST(GivenOutputs, ReachThePicture) {
 TEST(GivenOutputs, AreRefusedWhereLaterStagesReadMore) {
     Session& session = session_of_scenarios();
     const Request request = on_scenario("glass_and_smoke");
-    const auto refused = [&](Stage stage, const ImageSet& outputs) {
-        const auto run = session.run_from(request, stage, outputs);
-        return run ? std::string() : run.error().sentence;
-    };
-    EXPECT_THAT(refused(Stage::culling, {}), HasSubstr("buffers"));
-    EXPECT_THAT(refused(Stage::gbuffer, {}), HasSubstr("which is not given"));
-    EXPECT_THAT(refused(Stage::transparency, {}), HasSubstr("'color', which is not given"));
-    EXPECT_THAT(refused(Stage::transparency, {{"color", ReferenceImage(3, 3)}}), HasSubstr("another shape"));
-    EXPECT_THAT(refused(Stage::rain, {}), HasSubstr("does not need the stage"));
+    const auto run = [&](Stage stage, const ImageSet& outputs) { return session.run_from(request, stage, outputs); };
+    EXPECT_THAT(run(Stage::culling, {}), FailsWith("stage.buffers_are_read", Field("stage", "culling")));
+    EXPECT_THAT(run(Stage::gbuffer, {}), FailsWith("stage.output_not_given", Field("stage", "gbuffer")));
+    EXPECT_THAT(run(Stage::transparency, {}), FailsWith("stage.output_not_given", Field("image", "color")));
+    EXPECT_THAT(run(Stage::transparency, {{"color", ReferenceImage(3, 3)}}), FailsWith("stage.output_of_another_shape"));
+    EXPECT_THAT(run(Stage::rain, {}), FailsWith("stage.not_needed", Field("stage", "rain")));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "tests/support/accept.h"
 #include "tests/support/second_device.h"
 #include "tests/support/session.h"
+#include "tests/support/shell_lines.h"
 
 namespace strata {
 namespace {
@@ -136,8 +137,8 @@ TEST_P(Golden, TheWholeFrameIsAsAccepted) {
     write(actual, got);
     must(write_png(std::filesystem::path(actual).replace_extension(".png"), got.at("display")));
     FAIL() << problem << "\nlook at " << actual << " and the .png beside it; if that is right, accept it with\n  "
-           << command_that_accepts() << "\nreproduce: strata record " << frame.scenario << " --samples " << frame.samples
-           << " && strata replay " << frame.scenario << ".strata -o out";
+           << command_that_accepts()
+           << "\nreproduce: " << line_that_replays(frame.scenario, on_scenario(frame.scenario, frame.samples).variant);
 }
 
 INSTANTIATE_TEST_SUITE_P(WholeFrames, Golden, testing::ValuesIn(whole_frames),

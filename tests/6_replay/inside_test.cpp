@@ -1,58 +1,61 @@
-// What acts and steps gave, brought back: in the order of the frame, and the same bits a run gives.
+// What passes and steps gave, brought back: in the order of the frame, and the same bits a run gives.
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
+#include "passes/stages.h"
 #include "replay/images/image_io.h"
+#include "tests/support/errors.h"
 #include "tests/support/session.h"
 
 namespace strata {
 namespace {
 
-const ActImages& act_named(const std::vector<ActImages>& acts, std::string_view label) {
-    const auto found = std::ranges::find(acts, label, &ActImages::label);
-    if (found == acts.end()) throw std::runtime_error(fmt::format("no act is called {}", label));
+const PassImages& pass_named(const std::vector<PassImages>& passes, std::string_view label) {
+    const auto found = std::ranges::find(passes, label, &PassImages::label);
+    if (found == passes.end()) throw std::runtime_error(fmt::format("no pass is called {}", label));
     return *found;
 }
 
-TEST(ActImages, ComeInTheOrderOfTheFrameWithTheStagesOutputs) {
+TEST(PassImages, ComeInTheOrderOfTheFrameWithTheStagesOutputs) {
     const auto session = scenario_session("glass_and_smoke");
-    const auto acts = must(session->act_images({}));
-    ASSERT_GE(acts.size(), 5u);
-    EXPECT_TRUE(std::ranges::is_sorted(acts, {}, &ActImages::at));
-    for (const ActImages& act : acts)
-        for (const auto& [name, image] : act.images) {
-            EXPECT_EQ(std::ranges::count(info(act.stage).outputs, name), 1) << act.label << " " << name;
-            EXPECT_EQ(image.texels.size(), bytes(image.shape)) << act.label << " " << name;
+    const auto passes = must(session->pass_images({}));
+    ASSERT_GE(passes.size(), 5u);
+    EXPECT_TRUE(std::ranges::is_sorted(passes, {}, &PassImages::at));
+    for (const PassImages& pass : passes)
+        for (const auto& [name, image] : pass.images) {
+            EXPECT_EQ(std::ranges::count(info(pass.stage).outputs, name), 1) << pass.label << " " << name;
+            EXPECT_EQ(image.texels.size(), bytes(image.shape)) << pass.label << " " << name;
         }
-    EXPECT_TRUE(act_named(acts, "transparency").images.contains("color"));
-    EXPECT_TRUE(act_named(acts, "combine at film").images.contains("display"));
+    EXPECT_TRUE(pass_named(passes, "transparency").images.contains("color"));
+    EXPECT_TRUE(pass_named(passes, "combine at film").images.contains("display"));
 }
 
-TEST(ActImages, AreWhatTheStageLeftAndNotWhatLaterStagesMadeOfIt) {
+TEST(PassImages, AreWhatTheStageLeftAndNotWhatLaterStagesMadeOfIt) {
     const auto session = scenario_session("three_panes");
-    const auto acts = must(session->act_images({}));
-    const HostImage &combined = act_named(acts, "combine").images.at("color"),
-                    &composited = act_named(acts, "transparency").images.at("color");
+    const auto passes = must(session->pass_images({}));
+    const HostImage &combined = pass_named(passes, "combine").images.at("color"),
+                    &composited = pass_named(passes, "transparency").images.at("color");
     EXPECT_NE(hash_of(combined), hash_of(composited));
     const auto run = must(session->run({.outputs = {"color", "display"}}));
     EXPECT_EQ(hash_of(composited), hash_of(run.images.at("color")));
-    EXPECT_EQ(hash_of(act_named(acts, "combine at film").images.at("display")), hash_of(run.images.at("display")));
+    EXPECT_EQ(hash_of(pass_named(passes, "combine at film").images.at("display")), hash_of(run.images.at("display")));
 }
 
-TEST(ActImages, ComeWithARunsOutputsWhenAskedFor) {
+TEST(PassImages, ComeWithARunsOutputsWhenAskedFor) {
     const auto session = scenario_session("three_panes", 4);
     const Request plain{.outputs = {"color", "depth_layers", "display"}};
-    Request with_acts = plain;
-    with_acts.acts = Acts::brought_back;
-    const auto run = must(session->run(plain)), more = must(session->run(with_acts));
-    EXPECT_TRUE(run.acts.empty());
-    EXPECT_FALSE(more.acts.empty());
+    Request with_passes = plain;
+    with_passes.passes = Passes::read_back;
+    const auto run = must(session->run(plain)), more = must(session->run(with_passes));
+    EXPECT_TRUE(run.passes.empty());
+    EXPECT_FALSE(more.passes.empty());
     ASSERT_EQ(run.images.size(), more.images.size());
     for (const auto& [name, image] : run.images) EXPECT_EQ(hash_of(image), hash_of(more.images.at(name))) << name;
 }
 
-TEST(StepImages, ComeStepByStepAndEndWithWhatTheActLeft) {
+TEST(StepImages, ComeStepByStepAndEndWithWhatThePassLeft) {
     const auto session = scenario_session("three_panes");
     const auto steps = must(session->step_images({}, Stage::transparency));
     ASSERT_FALSE(steps.empty());
@@ -60,8 +63,8 @@ TEST(StepImages, ComeStepByStepAndEndWithWhatTheActLeft) {
     std::map<std::string, std::string> last;
     for (const StepImages& step : steps)
         for (const auto& [name, image] : step.images) last[name] = hash_of(image);
-    const auto acts = must(session->act_images({}));
-    EXPECT_EQ(last.at("color"), hash_of(act_named(acts, "transparency").images.at("color")));
+    const auto passes = must(session->pass_images({}));
+    EXPECT_EQ(last.at("color"), hash_of(pass_named(passes, "transparency").images.at("color")));
 }
 
 /// The only step of that scope and name; null where there are several, which two plans may count differently.
@@ -101,9 +104,8 @@ TEST(PixelSteps, EndWithThePictureOnEveryPixelAndTileOfIt) {
         const auto steps = must(session->pixel_steps({}, pixel));
         EXPECT_EQ(texel(steps.back().images.at("display"), 0, 0), texel(display, pixel.x, pixel.y));
     }
-    const auto outside = session->pixel_steps({}, {64, 0});
-    ASSERT_FALSE(outside);
-    EXPECT_EQ(outside.error().sentence, "the frame is 64 x 36; there is no pixel 64, 0");
+    EXPECT_THAT(session->pixel_steps({}, {64, 0}),
+                FailsWith("frame.no_pixel", Field("width", 64), Field("height", 36), Field("x", 64), Field("y", 0)));
 }
 
 TEST(StepImages, OfAStageTheFrameDoesNotNeedAreNone) {

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
+#include "replay/scene/scene_records.h"
 #include "tests/support/session.h"
 #include "tests/support/test_frame.h"
 
@@ -78,9 +80,9 @@ struct LayeredFrame : TestFrame {
         graph.clear(image, {{cleared, cleared, cleared, cleared}});
         return image;
     }
-    DrawPass draw() {
-        DrawPass pass = graph.draw("choosing", list);
-        return from == LayerFrom::geometry_shader ? pass.geometry("sorting") : pass;
+    DrawStep draw() {
+        DrawStep builder = graph.draw("choosing", list);
+        return from == LayerFrom::geometry_shader ? builder.geometry("sorting") : builder;
     }
     LayerFrom from;
     DrawList list;

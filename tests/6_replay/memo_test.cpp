@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/registry.h"
+#include "passes/technique.h"
 #include "replay/images/image_io.h"
+#include "replay/session/memo.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -17,17 +20,18 @@ TEST(Memo, ASecondEqualRunExecutesOnlyWhatFeedsBuffers) {
     const auto session = scenario_session("three_panes");
     const auto first = must(session->run({}));
     const auto second = must(session->run({}));
-    EXPECT_EQ(first.acts_from_memo, 0u);
-    EXPECT_GT(second.acts_from_memo, 0u);
+    EXPECT_EQ(first.passes_from_memo, 0u);
+    EXPECT_GT(second.passes_from_memo, 0u);
     EXPECT_LT(second.steps.size(), first.steps.size());
     EXPECT_EQ(hash_of(first.images.at("display")), hash_of(second.images.at("display")));
 }
 
-/// Scopes of the steps a run executed that are acts standing before a stage, the memo's own copies aside.
+/// Scopes of the steps a run executed that are passes standing before a stage, the memo's own copies aside.
 std::vector<std::string> executed_before(Stage stage, const Run& run) {
     std::vector<std::string> scopes;
     for (const StepRecord& step : run.steps) {
-        if (step.scope.kind == ScopeKind::act && step.scope.at < stage) scopes.push_back(text_of(step.scope) + " / " + step.name);
+        if (step.scope.kind == ScopeKind::pass && step.scope.at < stage)
+            scopes.push_back(text_of(step.scope) + " / " + step.name);
     }
     return scopes;
 }
@@ -64,7 +68,7 @@ TEST(Memo, APictureMadeWithItIsThePictureOfAFreshRun) {
     const auto other = must(session->run({.choices = chosen({technique_of(Stage::transparency, 1)})}));
     session->forget_memo();
     const auto fresh = must(session->run({.choices = chosen({technique_of(Stage::transparency, 1)})}));
-    EXPECT_EQ(other.acts_executed, 2u);  // transparency and what stands after it
+    EXPECT_EQ(other.passes_executed, 2u);  // transparency and what stands after it
     EXPECT_EQ(hash_of(other.images.at("display")), hash_of(fresh.images.at("display")));
 }
 
@@ -86,7 +90,7 @@ TEST(Memo, TimingExecutesWhatRequestsShareOncePerRepeat) {
     EXPECT_NE(runs[0].stage_ms.at("transparency").median, runs[1].stage_ms.at("transparency").median);
 }
 
-TEST(Memo, AJudgementIsTheSameWhateverWasJudgedBefore) {
+TEST(Memo, AJudgmentIsTheSameWhateverWasJudgedBefore) {
     const auto fresh = scenario_session("three_panes"), used = scenario_session("three_panes");
     for (const Technique* technique : techniques_of(Stage::transparency)) {
         const Request request{.choices = chosen({std::string(technique->name)})};
@@ -96,8 +100,9 @@ TEST(Memo, AJudgementIsTheSameWhateverWasJudgedBefore) {
         EXPECT_EQ(a.compared, b.compared) << technique->name;
         EXPECT_EQ(a.model_rmse, b.model_rmse) << technique->name;
         EXPECT_EQ(a.model_rmse, again.model_rmse) << technique->name;
-        ASSERT_EQ(a.method.size(), b.method.size());
-        for (std::size_t i = 0; i < a.method.size(); ++i) EXPECT_EQ(a.method[i].value, b.method[i].value) << technique->name;
+        ASSERT_EQ(a.technique_errors.size(), b.technique_errors.size());
+        for (std::size_t i = 0; i < a.technique_errors.size(); ++i)
+            EXPECT_EQ(a.technique_errors[i].value, b.technique_errors[i].value) << technique->name;
         must(used->judge(request, Stage::gbuffer));  // forgets what transparency found, not what it gave
         EXPECT_EQ(a.model_rmse, must(used->judge(request, Stage::transparency)).model_rmse) << technique->name;
     }
@@ -118,11 +123,11 @@ TEST(Memo, ASettingIsPartOfTheKey) {
     const auto run = must(session->run(changed));
     bool executed = false;
     for (const StepRecord& step : run.steps)
-        executed |= step.scope.kind == ScopeKind::act && step.scope.at == Stage::transparency;
+        executed |= step.scope.kind == ScopeKind::pass && step.scope.at == Stage::transparency;
     EXPECT_TRUE(executed);
 }
 
-TEST(Memo, CountersOfKeptActsAreReportedAgain) {
+TEST(Memo, CountersOfKeptPassesAreReportedAgain) {
     const auto session = scenario_session("three_panes");
     const auto first = must(session->run({}));
     const auto second = must(session->run({}));

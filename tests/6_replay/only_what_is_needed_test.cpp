@@ -4,6 +4,9 @@
 #include <algorithm>
 
 #include "captures/scenarios.h"
+#include "passes/frame_images.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/images/image_io.h"
 #include "tests/support/session.h"
 
@@ -35,7 +38,7 @@ TEST_P(EveryScenario, AStageThatIsLeftOutCountsNothingAndHoldsNothing) {
         EXPECT_FALSE(skipped.reason.empty());
         EXPECT_FALSE(run.stage_bytes.contains(std::string(name(skipped.stage)))) << name(skipped.stage);
         for (const StepRecord& step : run.steps)
-            EXPECT_FALSE(step.scope.kind == ScopeKind::act && step.scope.stage == skipped.stage) << text_of(step.scope);
+            EXPECT_FALSE(step.scope.kind == ScopeKind::pass && step.scope.stage == skipped.stage) << text_of(step.scope);
         for (const CounterRecord& counter : run.counters)
             EXPECT_NE(counter.technique.substr(0, counter.technique.find('/')), name(skipped.stage));
     }

@@ -1,8 +1,11 @@
 // A probe replays no more of the frame than what decides a pixel's fragments: what it finds is what the whole frame gives.
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/reference/ordering.h"
+#include "passes/registry.h"
 #include "replay/probe/probe.h"
+#include "tests/support/errors.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -49,10 +52,10 @@ TEST(ProbedPixel, EveryTechniqueShowsWhatItShowsOfTheFragmentsOfTheWholeFrame) {
     ASSERT_EQ(of_pixel.curves.size(), techniques_of(Stage::transparency).size());
     for (std::size_t i = 0; i < of_pixel.curves.size(); ++i) {
         const ProbeCurve &a = of_pixel.curves[i], &b = of_stack.curves[i];
-        EXPECT_EQ(a.through, b.through) << a.method;
-        EXPECT_EQ(a.at_events, b.at_events) << a.method;
-        EXPECT_EQ(a.total, b.total) << a.method;
-        EXPECT_EQ(a.notes, b.notes) << a.method;
+        EXPECT_EQ(a.through, b.through) << a.variant;
+        EXPECT_EQ(a.at_fragments, b.at_fragments) << a.variant;
+        EXPECT_EQ(a.total, b.total) << a.variant;
+        EXPECT_EQ(a.notes, b.notes) << a.variant;
     }
 }
 
@@ -62,9 +65,8 @@ TEST(ProbedPixel, AnEmptyPixelNamesTheNearestOneWithAFragmentInAnyRow) {
     for (std::uint32_t y = 0; y < lists.height(); ++y) {
         if (!lists.at(0, y).empty()) continue;
         const auto made = probe(*session, {}, {0, y}, {});
-        ASSERT_FALSE(made);
+        ASSERT_THAT(made, FailsWith("probe.no_fragment", Field("x", 0), Field("y", y), Field("nearest_x", testing::_)));
         EXPECT_EQ(made.error().fault, Fault::usage);
-        EXPECT_NE(made.error().sentence.find("the nearest pixel with some is ("), std::string::npos) << made.error().sentence;
         return;
     }
     FAIL() << "every pixel of the first column has a fragment";

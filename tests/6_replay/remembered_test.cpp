@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
 #include "replay/images/image_io.h"
 #include "tests/support/session.h"
 
@@ -41,7 +42,7 @@ TEST(Remembered, IsLookedAtInEveryRun) {
     const auto executes_transparency = [&](const Request& request) {
         const auto run = must(session->run(request));
         return std::ranges::any_of(
-            run.steps, [](const StepRecord& s) { return s.scope.kind == ScopeKind::act && s.scope.at == Stage::transparency; });
+            run.steps, [](const StepRecord& s) { return s.scope.kind == ScopeKind::pass && s.scope.at == Stage::transparency; });
     };
     EXPECT_TRUE(executes_transparency(with_slices("64")));
     EXPECT_TRUE(executes_transparency(with_slices("64")));

@@ -1,6 +1,9 @@
 // Equal runs give equal bits, and every step of every plan can be looked at.
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
+#include "passes/registry.h"
+#include "passes/technique.h"
 #include "replay/images/image_io.h"
 #include "tests/support/session.h"
 
@@ -70,7 +73,7 @@ TEST(Timing, HoldsWhatTheHostSorts) {
     for (std::size_t repeat = 0; repeat < 3; ++repeat) {
         double steps = 0;
         for (const StepRecord& step : runs[0].steps)
-            if (step.scope.kind == ScopeKind::act && step.scope.stage == Stage::transparency) steps += step.ms_by_repeat[repeat];
+            if (step.scope.kind == ScopeKind::pass && step.scope.stage == Stage::transparency) steps += step.ms_by_repeat[repeat];
         const double beyond = runs[0].stage_ms_by_repeat.at("transparency")[repeat] - steps;
         EXPECT_GE(beyond, sorted.low * .999);
         EXPECT_LE(beyond, sorted.high * 1.001);

@@ -1,13 +1,17 @@
 // Which way the device rounds what it blends: what it measures of itself holds for sums of many layers, and decides whether a
-// model of a method that blends agrees with it.
+// model of a technique that blends agrees with it.
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
+#include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/shader_interop.h"
+#include "passes/technique.h"
 #include "replay/measure/measured_rounding.h"
-#include "replay/session/judgement.h"
+#include "replay/session/judgment.h"
 #include "tests/support/session.h"
 #include "tests/support/test_frame.h"
 
@@ -44,7 +48,7 @@ Frame two_hundred_cards() {
 
 Rounding other(Rounding r) { return r == Rounding::to_nearest ? Rounding::towards_zero : Rounding::to_nearest; }
 
-/// A method that keeps sums in half floats, or in 11 and 10 bits.
+/// A technique that keeps sums in half floats, or in 11 and 10 bits.
 struct Blended {
     std::string_view technique, param, value;
     Rounding BlendRounding::*decides;
@@ -71,7 +75,7 @@ TEST_P(RoundedModel, AgreesWithTheDeviceByItsRoundingAlone) {
     EXPECT_LT(5 * error, judge_stage(judged).model_rmse) << error;
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, RoundedModel,
+INSTANTIATE_TEST_SUITE_P(Techniques, RoundedModel,
                          testing::Values(Blended{"transparency/weighted", "weight", "constant", &BlendRounding::half},
                                          Blended{"transparency/wavelet", "storage", "half", &BlendRounding::half},
                                          Blended{"transparency/stochastic", "correction", "alpha", &BlendRounding::half},

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
+#include "passes/frame_images.h"
 #include "passes/scene/view_space.h"
+#include "passes/shaders/scene/no_index.shared.h"
 #include "tests/support/session.h"
 
 namespace strata {

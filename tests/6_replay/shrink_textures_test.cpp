@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "capture_format/codec/texture_bytes.h"
+#include "capture_format/frame.h"
 #include "replay/scene/shrink_textures.h"
 
 namespace strata {

@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/reference/estimated_image.h"
+#include "passes/registry.h"
 #include "replay/images/image_io.h"
 #include "replay/report/report.h"
 #include "replay/session/until_stopped.h"
@@ -27,7 +29,7 @@ TEST(Stopped, EveryCallEndsAtOnceUntilThereIsAnotherToken) {
     const Request request;
     const auto is_stopped = [](const auto& result) { return !result && result.error().fault == Fault::stopped; };
     EXPECT_TRUE(is_stopped(session->run(request)));
-    EXPECT_TRUE(is_stopped(session->run({.acts = Acts::brought_back})));
+    EXPECT_TRUE(is_stopped(session->run({.passes = Passes::read_back})));
     EXPECT_TRUE(is_stopped(session->run(scenario_frames("one_pane").front(), std::span(&request, 1))));
     EXPECT_TRUE(is_stopped(session->time(std::span(&request, 1), 1)));
     EXPECT_TRUE(is_stopped(session->truth(request, Stage::transparency)));

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
 #include "ui/frame/capture_tables.h"

@@ -5,9 +5,13 @@
 #include <gtest/gtest.h>
 #include <glm/glm.hpp>
 
+#include "capture_format/frame.h"
 #include "capture_format/srgb.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/session/choice_text.h"
 #include "tests/7_inspector/desk.h"
+#include "tests/support/errors.h"
 #include "tests/support/session.h"
 #include "ui/report/report_columns.h"
 #include "ui/window/theme.h"
@@ -21,13 +25,13 @@ using testing::IsEmpty;
 
 Measurement row(std::string technique, double error, double ms, double bias = 0) {
     Measurement made{.technique = std::move(technique)};
-    made.accuracy.method = {{"rmse", "radiance", error}, {"bias", "radiance", bias}};
+    made.accuracy.technique_errors = {{"rmse", "radiance", error}, {"bias", "radiance", bias}};
     made.stage_ms = made.frame_ms = {.median = ms, .mad = ms / 10};
     made.tolerance = 1;
     return made;
 }
 
-/// Four methods, of which one cannot do the frame.
+/// Four techniques, of which one cannot do the frame.
 Report report() {
     Report made{.repeats = 3};
     made.rows = {row("transparency/sorted_lists", 0, 8),
@@ -90,14 +94,14 @@ TEST(ReportColumns, ABiasRanksByItsSizeAndIsShownWithItsSign) {
 
 TEST(ReportColumns, AnAxisIsLogarithmicWhereThatIsWorthIt) {
     const auto columns = columns_of(report());
-    EXPECT_EQ(natural_scale(column(columns, "rmse")), AxisScale::linear) << "an exact method has the error 0";
+    EXPECT_EQ(natural_scale(column(columns, "rmse")), AxisScale::linear) << "an exact technique has the error 0";
     EXPECT_EQ(natural_scale(column(columns, "ms")), AxisScale::linear) << "8 is less than ten times 1";
     Report wide = report();
     wide.rows[0].stage_ms.median = 10;
     EXPECT_EQ(natural_scale(column(columns_of(wide), "ms")), AxisScale::logarithmic);
 }
 
-TEST(ReportPlot, HasAMethodPerSeriesWithItsSpreadThenTheFrontThenWhatIsShown) {
+TEST(ReportPlot, HasATechniquePerSeriesWithItsSpreadThenTheFrontThenWhatIsShown) {
     const Report made = report();
     const auto columns = columns_of(made);
     const ReportAxes axes{column(columns, "rmse"), column(columns, "ms"), AxisScale::logarithmic, AxisScale::linear};
@@ -106,7 +110,7 @@ TEST(ReportPlot, HasAMethodPerSeriesWithItsSpreadThenTheFrontThenWhatIsShown) {
     for (const PlotSeries& series : plot.series) labels.push_back(series.label);
     ASSERT_THAT(labels, testing::UnorderedElementsAre("moments", "weighted", "alpha_blend", "Pareto front", "shown now"));
     EXPECT_EQ(plot.without_place, 1u) << "an error of 0 on a logarithmic axis";
-    EXPECT_THAT(plot.rows[3], ElementsAre(3, 1)) << "from the cheapest on; the exact method has no place";
+    EXPECT_THAT(plot.rows[3], ElementsAre(3, 1)) << "from the cheapest on; the exact technique has no place";
     EXPECT_THAT(plot.rows[4], ElementsAre(3));
     const PlotPoint moments = *plot.point_of(1);
     EXPECT_EQ(plot.series[moments.series].points[moments.point], glm::dvec2(2, .01));
@@ -142,7 +146,7 @@ TEST(ReportBase, KeepsTheOtherStagesChoicesAlone) {
 constexpr const char* panel = "Accuracy and cost";
 constexpr strata::Stage measured_stage = strata::Stage::gbuffer;
 
-/// A stage with few methods, measured once in the panel.
+/// A stage with few techniques, measured once in the panel.
 Desk& measured_desk() {
     Desk& desk = Desk::clean();
     desk.model().select_frame(frame_of("one_sphere"));
@@ -223,7 +227,7 @@ TEST(CostPanel, AStageThatTheFrameDoesNotNeedSaysWhy) {
     const auto skipped = std::ranges::find(desk.replay()->skipped, strata::Stage::transparency, &SkippedStage::stage);
     ASSERT_NE(skipped, desk.replay()->skipped.end());
     EXPECT_THAT(desk.said(fmt::format("{}/left out", panel)), HasSubstr(skipped->reason));
-    EXPECT_THAT(desk.player->click(fmt::format("{}/measure", panel)).error().sentence, HasSubstr("is disabled"));
+    EXPECT_THAT(desk.player->click(fmt::format("{}/measure", panel)), FailsWith("script.disabled"));
 }
 
 }  // namespace

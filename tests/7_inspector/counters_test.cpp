@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "passes/registry.h"
+#include "passes/technique.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
 #include "ui/frame/counter_rows.h"

@@ -4,6 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
+#include "passes/frame_images.h"
+#include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/plural.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
@@ -16,10 +21,10 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 StepRecord timed(Stage stage, std::string technique, std::string name, std::vector<double> ms) {
-    return {{ScopeKind::act, stage, stage, std::move(technique)}, std::move(name), spread_of(ms), ms};
+    return {{ScopeKind::pass, stage, stage, std::move(technique)}, std::move(name), spread_of(ms), ms};
 }
 
-/// Two acts: shadows of two steps, lighting of one.
+/// Two passes: shadows of two steps, lighting of one.
 FrameTimes times() {
     FrameTimes made;
     made.run.steps = {timed(Stage::shadows, "shadows/pcf", "shadows/pcf/draw.vert", {1, 2, 6}),
@@ -42,11 +47,11 @@ Replay replay_of(const FrameTimes& measured) {
     return made;
 }
 
-TEST(FrameRows, AnActIsTheSumOfItsStepsRepeatByRepeat) {
+TEST(FrameRows, APassIsTheSumOfItsStepsRepeatByRepeat) {
     const FrameTimes measured = times();
     const FrameRows rows = frame_rows(replay_of(measured), &measured);
-    ASSERT_EQ(rows.acts.size(), 2u);
-    const FrameAct& shadows = rows.acts.front();
+    ASSERT_EQ(rows.passes.size(), 2u);
+    const FramePass& shadows = rows.passes.front();
     // Sums 3, 3, 7: their median is 3 and two of three do not deviate. The steps' own medians are 2 and 1, deviating by 1 and 0.
     ASSERT_TRUE(shadows.ms);
     EXPECT_EQ(shadows.ms->median, 3);
@@ -58,12 +63,12 @@ TEST(FrameRows, AnActIsTheSumOfItsStepsRepeatByRepeat) {
     EXPECT_EQ(face_of(shadows.scope), "shadows/pcf");
 }
 
-TEST(FrameRows, ToldApartAreActsThatWereExecutedAndActsThatWereKept) {
+TEST(FrameRows, ToldApartArePassesThatWereExecutedAndPassesThatWereKept) {
     const FrameRows rows = frame_rows(replay_of(times()), nullptr);
-    EXPECT_FALSE(rows.acts[0].is_executed);
-    EXPECT_TRUE(rows.acts[1].is_executed);
+    EXPECT_FALSE(rows.passes[0].is_executed);
+    EXPECT_TRUE(rows.passes[1].is_executed);
     EXPECT_EQ(executed_text(rows), "1 of 2 passes run, 1 reused");
-    EXPECT_FALSE(rows.acts[0].ms) << "nothing was measured";
+    EXPECT_FALSE(rows.passes[0].ms) << "nothing was measured";
 }
 
 TEST(FrameRows, ATimeStaysWithItsStepThoughOtherStepsCameBeforeIt) {
@@ -74,8 +79,8 @@ TEST(FrameRows, ATimeStaysWithItsStepThoughOtherStepsCameBeforeIt) {
     replay.steps = {other, other, other, replay.steps[2]};
     const FrameRows rows = frame_rows(replay, &measured);
     EXPECT_THAT(rows.timed, testing::ElementsAre(std::nullopt, std::nullopt, std::nullopt, 2u));
-    EXPECT_FALSE(rows.acts[0].ms) << "another technique has no time yet";
-    EXPECT_EQ(rows.acts[1].ms->median, 4);
+    EXPECT_FALSE(rows.passes[0].ms) << "another technique has no time yet";
+    EXPECT_EQ(rows.passes[1].ms->median, 4);
     EXPECT_EQ(rows.step_timed_as(2), 3u);
     EXPECT_EQ(rows.step_timed_as(0), std::nullopt);
 }
@@ -102,15 +107,15 @@ TEST(FrameRows, ATimeHasTheDigitsThatCount) {
     EXPECT_EQ(time_text({.median = 12345.6}), "12346");
 }
 
-TEST(Timeline, BarsLieEndToEndAndAnActIsAsLongAsItsSteps) {
+TEST(Timeline, BarsLieEndToEndAndAPassIsAsLongAsItsSteps) {
     const Timeline timeline = timeline_of(times());
     ASSERT_EQ(timeline.steps.size(), 3u);
-    ASSERT_EQ(timeline.acts.size(), 2u);
+    ASSERT_EQ(timeline.passes.size(), 2u);
     EXPECT_EQ(timeline.ms, 7);
     EXPECT_EQ(timeline.steps[1].from, 2);
     EXPECT_EQ(timeline.steps[1].to, 3);
-    EXPECT_EQ(timeline.acts[0].to, timeline.acts[1].from);
-    EXPECT_EQ(timeline.acts[1].to, timeline.ms);
+    EXPECT_EQ(timeline.passes[0].to, timeline.passes[1].from);
+    EXPECT_EQ(timeline.passes[1].to, timeline.ms);
     EXPECT_THAT(timeline.steps[2].help, AllOf(HasSubstr("lighting/tiled/light.comp"), HasSubstr("4.00 ms, 57.1 % of the frame")));
     EXPECT_EQ(bar_at(timeline.steps, 2.5), &timeline.steps[1]);
     EXPECT_EQ(bar_at(timeline.steps, 3), &timeline.steps[2]);
@@ -178,9 +183,9 @@ TEST(FramePanel, MarksWhatAChangeHasExecutedAndKeepsTheMarksAfterMeasuring) {
     }
     const FrameRows rows = frame_rows(*desk.replay(), nullptr);
     std::size_t kept = 0;
-    for (const FrameAct& act : rows.acts) {
-        EXPECT_EQ(desk.said(fmt::format("Frame/{} is", text_of(act.scope))), act.is_executed ? "executed" : "kept");
-        kept += !act.is_executed;
+    for (const FramePass& pass : rows.passes) {
+        EXPECT_EQ(desk.said(fmt::format("Frame/{} is", text_of(pass.scope))), pass.is_executed ? "executed" : "kept");
+        kept += !pass.is_executed;
     }
     EXPECT_GT(kept, 0u);
     EXPECT_EQ(desk.said("Frame/executed"), executed_text(rows));
@@ -238,7 +243,7 @@ TEST(FramePanel, CtrlUpAndDownMoveTheSelectedStepThroughThoseThatAreFound) {
     EXPECT_TRUE(desk.widget(path_of(*replay, first)).visible);
 }
 
-TEST(FramePanel, CollapsesAndExpandsAllAndByKeysTheActOfTheSelectedStep) {
+TEST(FramePanel, CollapsesAndExpandsAllAndByKeysThePassOfTheSelectedStep) {
     Desk& desk = timed_desk();
     const auto replay = desk.replay();
     const std::size_t step = some_step(*replay);
@@ -261,23 +266,23 @@ TEST(FramePanel, CollapsesAndExpandsAllAndByKeysTheActOfTheSelectedStep) {
     EXPECT_FALSE(desk.widget(closed).open) << "looking for something leaves open what was open";
 }
 
-TEST(FramePanel, HasTimeMemoryAndWorkBesideEveryActAndStep) {
+TEST(FramePanel, HasTimeMemoryAndWorkBesideEveryPassAndStep) {
     Desk& desk = timed_desk();
     must(desk.player->click("Frame/expand all"));
     const auto replay = desk.replay();
     const FrameRows rows = frame_rows(*replay, nullptr);
     const std::size_t step = some_step(*replay);
-    for (const FrameAct& act : rows.acts) EXPECT_NE(desk.said(fmt::format("Frame/{} ms", text_of(act.scope))), "");
+    for (const FramePass& pass : rows.passes) EXPECT_NE(desk.said(fmt::format("Frame/{} ms", text_of(pass.scope))), "");
     EXPECT_NE(desk.said(path_of(*replay, step) + " ms"), "");
     must(desk.player->choose("Frame/beside", "Memory"));
-    for (const FrameAct& act : rows.acts)
-        EXPECT_THAT(desk.said(fmt::format("Frame/{} alive", text_of(act.scope))), HasSubstr("B"));
+    for (const FramePass& pass : rows.passes)
+        EXPECT_THAT(desk.said(fmt::format("Frame/{} alive", text_of(pass.scope))), HasSubstr("B"));
     EXPECT_THAT(desk.said(path_of(*replay, step) + " alive"), HasSubstr("B"));
     desk.expect_no_conflicts();
     must(desk.player->choose("Frame/beside", "Work"));
-    for (const FrameAct& act : rows.acts) {
-        EXPECT_EQ(desk.said(fmt::format("Frame/{} work", text_of(act.scope))), plural(act.end - act.first, "step"));
-        EXPECT_EQ(desk.said(fmt::format("Frame/{} waits", text_of(act.scope))), fmt::format("{}", act.barriers));
+    for (const FramePass& pass : rows.passes) {
+        EXPECT_EQ(desk.said(fmt::format("Frame/{} work", text_of(pass.scope))), plural(pass.end - pass.first, "step"));
+        EXPECT_EQ(desk.said(fmt::format("Frame/{} waits", text_of(pass.scope))), fmt::format("{}", pass.barriers));
     }
     EXPECT_EQ(desk.said(path_of(*replay, step) + " work"), replay->steps[step].short_work);
     desk.expect_no_conflicts();

@@ -5,6 +5,7 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include "passes/stage_input.h"
 #include "ui/window/input_queue.h"
 #include "ui/window/keys.h"
 

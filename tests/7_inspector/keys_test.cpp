@@ -8,9 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "capture_format/container/whole_file.h"
+#include "passes/frame_images.h"
 #include "replay/images/image_io.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/7_tool/process.h"
+#include "tests/support/errors.h"
 #include "tests/support/session.h"
 #include "tests/support/shader_folder.h"
 #include "ui/picture/camera.h"
@@ -124,7 +126,8 @@ TEST(Keys, ShiftF12IntoAFolderThatIsGoneSaysSo) {
     std::filesystem::remove(folder() / "gone");
     must(desk.player->key("shift+f12"));
     must(desk.player->wait());
-    EXPECT_THAT(desk.inspector->log().back().text, HasSubstr("cannot write strata_window.png"));
+    EXPECT_EQ(desk.inspector->log().back().kind, LogLine::Kind::failed);
+    EXPECT_THAT(desk.inspector->log().back().text, HasSubstr("strata_window.png"));
 }
 
 TEST(Keys, CtrlQAsksToCloseTheWindow) {
@@ -150,7 +153,7 @@ TEST(FrameRate, IsThatOfTheLastTwoSecondsInWhichSomethingWasComputed) {
 TEST(Keys, F12IntoAFolderThatIsGoneSaysSo) {
     Desk& desk = Desk::clean();
     const ShownImage shown{"display", desk.replay()->image(desk.replay(), "display"), 0, {}, {}};
-    EXPECT_THAT(save(folder() / "nowhere", "a", shown).error().sentence, HasSubstr("nowhere"));
+    EXPECT_THAT(save(folder() / "nowhere", "a", shown), FailsWith("file.cannot_write", Field("file", HasSubstr("nowhere"))));
 }
 
 TEST(Keys, CtrlGPinsAPixelThatIsThere) {

@@ -5,6 +5,11 @@
 #include <gtest/gtest.h>
 #include <CLI/CLI.hpp>
 
+#include "capture_format/frame/stage_choice.h"
+#include "passes/registry.h"
+#include "passes/scene/scene_facts.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/cli/verb_options.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"

@@ -4,9 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame_features.h"
 #include "captures/scenarios.h"
+#include "passes/frame_images.h"
+#include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "tests/7_inspector/desk.h"
+#include "tests/support/errors.h"
 #include "tests/support/session.h"
 #include "ui/widgets/keys_list.h"
 
@@ -182,9 +186,15 @@ TEST(Panels, AFrameThatIsNotThereShowsASentenceAndKeepsThePicture) {
     const auto before = desk.replay();
     desk.model().select_frame(scenarios().size());
     must(desk.player->wait());
-    EXPECT_THAT(desk.said("status/error"), HasSubstr("there is no frame"));
+    const Error* error = desk.inspector->replayer().error("A");
+    ASSERT_NE(error, nullptr);
+    EXPECT_THAT(*error, FailsWith("capture.no_frame", Field("frame", scenarios().size())));
+    EXPECT_THAT(desk.said("status/error"), HasSubstr(error->sentence));
     EXPECT_EQ(desk.replay(), before);
-    EXPECT_THAT(desk.inspector->log().back().text, HasSubstr("there is no frame"));
+    EXPECT_EQ(desk.inspector->log().back().text, error->sentence);
+    must(desk.player->move("status/error", .1f, .5f));
+    must(desk.player->frames(60));
+    EXPECT_THAT(desk.said("help"), HasSubstr("capture.no_frame: ")) << "its id is its help";
 }
 
 }  // namespace

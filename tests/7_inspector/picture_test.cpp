@@ -6,6 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
+#include "passes/frame_images.h"
+#include "passes/technique.h"
 #include "replay/images/image_io.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
+#include "passes/stages.h"
 #include "replay/plural.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"

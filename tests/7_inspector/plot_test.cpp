@@ -146,7 +146,7 @@ TEST(Plot, TheLegendSwitchesSeriesOff) {
 
 TEST(Plot, ALegendThatIsTooLongForALineGoesOn) {
     PlotWindow window;
-    for (int i = 0; i < 20; ++i) window.all.push_back(series(fmt::format("method {}", i), SeriesKind::line, {{1, 0}, {2, 1}}));
+    for (int i = 0; i < 20; ++i) window.all.push_back(series(fmt::format("technique {}", i), SeriesKind::line, {{1, 0}, {2, 1}}));
     window.frame();
     for (const WidgetRecord& record : window.widgets.records()) EXPECT_LE(record.to.x, 600) << record.path;
     EXPECT_EQ(window.widgets.records()[0].from.y, window.widgets.records()[1].from.y) << "and fills it first";

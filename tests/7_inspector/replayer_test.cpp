@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "captures/scenarios.h"
+#include "tests/support/errors.h"
 #include "tests/support/session.h"
 
 namespace strata::ui {
@@ -98,7 +99,7 @@ TEST(Replayer, AJobThatIsCancelledStopsWhatTheSessionIsInAndTheNextOneIsNotStopp
     job->progress.cancel();
     const auto next = opened.replayer.start<std::size_t>([](Session& session, ui::Progress&) -> Result<std::size_t> {
         const auto run = session.run(with_another_eye());
-        return run ? Result<std::size_t>(run->acts_executed) : run.error();
+        return run ? Result<std::size_t>(run->passes_executed) : run.error();
     });
     take_until(opened.replayer, [&] { return next->result() != nullptr; });
     ASSERT_NE(job->result(), nullptr);
@@ -111,7 +112,7 @@ TEST(Replayer, WhatHasNotEnoughMemoryIsASentenceAndTheCaptureIsOpenedAnewForTheN
     const auto good = opened.replayer.shown("A");
     const auto job = opened.replayer.start<int>([](Session&, ui::Progress&) -> Result<int> { throw std::bad_alloc(); });
     take_until(opened.replayer, [&] { return job->result() != nullptr; });
-    EXPECT_THAT(job->result()->error().sentence, testing::HasSubstr("not enough memory"));
+    EXPECT_THAT(*job->result(), FailsWith("machine.out_of_memory"));
     EXPECT_EQ(opened.replayer.shown("A"), good);
     opened.replayer.show("A", with_another_eye());
     take_until(opened.replayer, [&] { return opened.replayer.is_current("A"); });

@@ -5,9 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "replay/images/image_io.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/7_tool/process.h"
+#include "tests/support/errors.h"
 #include "tests/support/session.h"
 
 namespace strata::ui {
@@ -20,10 +22,7 @@ Result<void> play_lines(Desk& desk, const std::string& text) {
     return play(*desk.player, must(parse_script(text, "script")), "script", folder());
 }
 
-std::string refusal(const std::string& text) {
-    const auto done = play_lines(Desk::clean(), text);
-    return done ? "" : done.error().sentence;
-}
+Result<void> played(const std::string& text) { return play_lines(Desk::clean(), text); }
 
 TEST(Script, WordsMayBeInQuotesAndCommentsEndALine) {
     const auto lines = must(parse_script("click a\n\n  # nothing\nchoose 'a b' \"it's\"  # more\n", "script"));
@@ -33,14 +32,22 @@ TEST(Script, WordsMayBeInQuotesAndCommentsEndALine) {
 }
 
 TEST(Script, ErrorsHaveFileAndLine) {
-    EXPECT_THAT(parse_script("wait\nclick 'a\n", "script").error().sentence, HasSubstr("script:2: a quote is not closed"));
-    EXPECT_THAT(refusal("wait\nclik Image/fit\n"), HasSubstr("script:2: there is no command 'clik'; did you mean click?"));
-    EXPECT_THAT(refusal("click Image/fits"), HasSubstr("script:1: there is no widget 'Image/fits'; did you mean Image/fit?"));
-    EXPECT_THAT(refusal("drag Image/exposure"), HasSubstr("it is: drag PATH VALUE"));
-    EXPECT_THAT(refusal("drag Image/exposure 99"), HasSubstr("goes from -12 to 12"));
-    EXPECT_THAT(refusal("click 'Techniques/reset all'"), HasSubstr("'Techniques/reset all' is disabled"));
-    EXPECT_THAT(refusal("expect Image/channels red"), HasSubstr("says 'RGB', not 'red'"));
-    EXPECT_THAT(refusal("key hyper+x"), HasSubstr("there is no key 'hyper+x'"));
+    const Field file("file", "script"), first("line", 1), second("line", 2);
+    EXPECT_THAT(parse_script("wait\nclick 'a\n", "script"), FailsWith("script.open_quote", file, second));
+    EXPECT_THAT(played("wait\nclik Image/fit\n"), FailsWith("script.unknown_command", file, second, Field("command", "clik"),
+                                                            Field("suggestion", "; did you mean click?")));
+    EXPECT_THAT(played("click Image/fits"), FailsWith("script.unknown_widget", file, first, Field("widget", "Image/fits"),
+                                                      Field("suggestion", "; did you mean Image/fit?")));
+    EXPECT_THAT(played("drag Image/exposure"),
+                FailsWith("script.argument_count", Field("given", 1), Field("usage", "drag PATH VALUE")));
+    EXPECT_THAT(played("drag Image/exposure 9x"), FailsWith("script.not_a_number", Field("word", "9x")));
+    EXPECT_THAT(played("drag Image/exposure 99"),
+                FailsWith("script.out_of_range", Field("low", -12), Field("high", 12), Field("value", 99)));
+    EXPECT_THAT(played("drag Image/fit 1"), FailsWith("script.not_a_slider"));
+    EXPECT_THAT(played("click 'Techniques/reset all'"), FailsWith("script.disabled", Field("widget", "Techniques/reset all")));
+    EXPECT_THAT(played("expect Image/channels red"),
+                FailsWith("script.unexpected_text", Field("text", "RGB"), Field("expected", "red")));
+    EXPECT_THAT(played("key hyper+x"), FailsWith("script.unknown_key", Field("key", "hyper+x")));
 }
 
 TEST(Script, AWholeSessionPlays) {
@@ -88,9 +95,10 @@ TEST(Script, TheProgramPlaysOneAndExitsByItsOutcome) {
     const Finished good = strata("inspect panes.strata --script good.txt --size 900x600");
     EXPECT_EQ(good.code, 0) << good.err;
     EXPECT_EQ(must(read_png(folder() / "shown.png")).shape.extent.width, 900u);
-    const Finished bad = strata("inspect panes.strata --script bad.txt");
-    EXPECT_EQ(bad.code, 1);
-    EXPECT_THAT(bad.err, HasSubstr("bad.txt:1: 'top/capture' says 'panes.strata', not 'other.strata'"));
+    const Finished bad = strata("-v inspect panes.strata --script bad.txt");
+    EXPECT_THAT(bad, Refuses(1, "script.unexpected_text",
+                             "widget=top/capture text=panes.strata expected=other.strata file=bad.txt line=1"));
+    EXPECT_THAT(bad.err, HasSubstr("strata: bad.txt:1: ")) << "as compilers say where";
     EXPECT_EQ(strata("inspect panes.strata --script missing.txt").code, 3);
     EXPECT_EQ(strata("inspect missing.strata --script good.txt").code, 3);
 }

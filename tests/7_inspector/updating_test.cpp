@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
+#include "passes/registry.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
 #include "tests/support/shader_folder.h"
@@ -143,7 +145,7 @@ TEST(Updating, ThePixelsPartsAreDimmedUntilTheyAreOfThePin) {
     must(desk.player->wait());
     std::vector<std::string> steps;
     for (const WidgetRecord& record : desk.inspector->widgets().records())
-        if (record.path.starts_with("Pixel/steps/") && record.path.ends_with("/act")) steps.push_back(record.path);
+        if (record.path.starts_with("Pixel/steps/") && record.path.ends_with("/pass")) steps.push_back(record.path);
     ASSERT_FALSE(steps.empty());
     expect_dimmed_until_made(desk, {"pin", [](Desk& at) { at.model().pin = glm::ivec2(3, 3); }, {steps.front()}});
 }
@@ -253,7 +255,7 @@ TEST(Updating, ComparisonsAndViewsChangeNothingOfWhatTheLastChangeExecuted) {
     must(desk.player->choose("Compare/A/source", "as recorded"));
     must(desk.player->choose("Compare/B/source", "this replay"));
     must(desk.player->wait());
-    // An eye that was nowhere before: every act has to be executed, by whoever asks first.
+    // An eye that was nowhere before: every pass has to be executed, by whoever asks first.
     desk.model().look_from({.dolly = .123});
     must(desk.player->wait());
     const std::string executed = desk.said("Frame/executed");

@@ -7,6 +7,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "passes/frame_images.h"
+#include "passes/registry.h"
+#include "passes/technique.h"
 #include "passes/view_params.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/7_tool/process.h"

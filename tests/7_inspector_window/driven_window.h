@@ -1,4 +1,4 @@
-// The inspector in a real window, and who sits before it: sees by Shift+F12, acts by mouse and keys.
+// The inspector in a real window, and who sits before it: sees by Shift+F12, uses mouse and keys.
 #pragma once
 
 #include <filesystem>

@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "capture_format/reader.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/agreement.h"
 #include "tests/support/not_finite.h"

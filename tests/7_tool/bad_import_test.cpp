@@ -17,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 
 struct BadScene {
-    const char *name, *says;
+    const char *name, *id;  ///< of the error, and what its fields begin with
     std::string text;
     int code = 3;
 };
@@ -29,22 +29,25 @@ std::vector<BadScene> bad_scenes() {
         return fmt::format(R"({{"asset":{{"version":"2.0"}},"accessors":[{}],{}"nodes":[{{"mesh":0}}]}})", accessor, mesh);
     };
     return {
-        {"cut short", "", R"({ "asset": )"},
-        {"nodes in a circle", "node", with(R"("scenes":[{"nodes":[0]}],"nodes":[{"children":[1]},{"children":[0]}])")},
-        {"a node that is its own child", "node", with(R"("scenes":[{"nodes":[0]}],"nodes":[{"children":[0]}])")},
-        {"a mesh that is not there", "mesh 9", with(R"("nodes":[{"mesh":9}])")},
-        {"4294967295 vertices of no buffer", "memory budget",
-         without_buffer(R"({"componentType":5126,"type":"VEC3","count":4294967295})"), 4},
-        {"-1 vertices", "", without_buffer(R"({"componentType":5126,"type":"VEC3","count":-1})")},
-        {"an accessor that leaves its buffer", "",
+        {"cut short", "import.gltf.json_cut:", R"({ "asset": )"},
+        {"nodes in a circle",
+         "import.gltf.node_cycle:", with(R"("scenes":[{"nodes":[0]}],"nodes":[{"children":[1]},{"children":[0]}])")},
+        {"a node that is its own child",
+         "import.gltf.node_cycle:", with(R"("scenes":[{"nodes":[0]}],"nodes":[{"children":[0]}])")},
+        {"a mesh that is not there", "import.gltf.index_range: list=mesh index=9", with(R"("nodes":[{"mesh":9}])")},
+        {"4294967295 vertices of no buffer",
+         "memory.budget:", without_buffer(R"({"componentType":5126,"type":"VEC3","count":4294967295})"), 4},
+        {"-1 vertices", "import.gltf.member_type: place=glTF.accessors[0] member=count",
+         without_buffer(R"({"componentType":5126,"type":"VEC3","count":-1})")},
+        {"indices that are not there", "import.gltf.index_range: list=accessor index=7",
          Gltf().with_triangle().text(
              R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":7}]}],"nodes":[{"mesh":0}])")},
-        {"a file outside of its folder", "",
+        {"a file outside of its folder", "import.gltf.uri_outside:",
          R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"../../../etc/passwd"}],)"
          R"("bufferViews":[{"buffer":0,"byteLength":36}],)"
          R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],)" +
              mesh + R"("nodes":[{"mesh":0}]})"},
-        {"JSON of great depth", "", std::string(100000, '[')},
+        {"JSON of great depth", "import.gltf.json_depth:", std::string(100000, '[')},
     };
 }
 
@@ -66,9 +69,9 @@ TEST(BadScene, IsRefusedAndNothingIsWritten) {
     for (const BadScene& scene : bad_scenes()) {
         SCOPED_TRACE(scene.name);
         std::ofstream(folder() / "bad.gltf") << scene.text;
-        const Finished refused = strata("import bad.gltf -o made.strata");
+        const Finished refused = strata("-v import bad.gltf -o made.strata");
         EXPECT_EQ(refused.code, scene.code) << refused.err;
-        EXPECT_THAT(refused.err, testing::AllOf(HasSubstr("bad.gltf"), HasSubstr(scene.says)));
+        EXPECT_THAT(refused.err, testing::AllOf(HasSubstr("bad.gltf"), HasSubstr(fmt::format("\nstrata: {}", scene.id))));
         EXPECT_FALSE(std::filesystem::exists(folder() / "made.strata"));
     }
 }

@@ -28,12 +28,12 @@ std::map<std::string, Bytes> files() {
     return found;
 }
 
-/// Runs the verb on the bad file that is there: refused as bad input with a sentence that names it and says the words.
-void expect_refused(const FileVerb& verb, const std::string& words) {
+/// Runs the verb on the bad file that is there: refused as bad input with a sentence that names it, with this id.
+void expect_refused(const FileVerb& verb, const std::string& id) {
     const auto before = files();
-    const Finished refused = strata(verb.command());
+    const Finished refused = strata("-v " + verb.command());
     EXPECT_EQ(refused.code, 3) << refused.err;
-    EXPECT_THAT(refused.err, testing::AllOf(HasSubstr(verb.file()), HasSubstr(words)));
+    EXPECT_THAT(refused.err, testing::AllOf(HasSubstr(verb.file()), HasSubstr("\nstrata: " + id)));
     EXPECT_EQ(refused.out, "");
     EXPECT_TRUE(files() == before) << "something was written";
 }
@@ -69,7 +69,7 @@ TEST_P(BadCapture, ThatLiesBehindRightChecksumsIsRefusedWithSectionAndOffset) {
     for (const ForgedCapture& forged : forged_captures()) {
         SCOPED_TRACE(forged.name);
         write_file(folder() / GetParam().file(), forged.bytes);
-        expect_refused(GetParam(), forged.says);
+        expect_refused(GetParam(), forged.id);
     }
 }
 
@@ -83,7 +83,7 @@ TEST_P(BadCapture, ThatIsCutIsRefusedOrReadUpToTheCutWhenAllowed) {
         if (!GetParam().takes_partial) continue;
         const Finished partial = strata(GetParam().command() + " --allow-partial");
         EXPECT_EQ(partial.code, size > good.size() / 2 ? 0 : 3) << partial.err;
-        EXPECT_THAT(partial.err, HasSubstr(size > good.size() / 2 ? "what follows is left out" : GetParam().file()));
+        EXPECT_THAT(partial.err, HasSubstr(size > good.size() / 2 ? "left out" : GetParam().file()));
         for (const auto& made : files())
             if (made.first != GetParam().file()) std::filesystem::remove(folder() / made.first);
     }
@@ -93,7 +93,7 @@ TEST_P(BadCapture, WithASectionOfTheFutureIsReadAndTheSectionNamed) {
     write_file(folder() / GetParam().file(), capture_with_unknown_section());
     const Finished read = strata(GetParam().command());
     EXPECT_EQ(read.code, 0) << read.err;
-    EXPECT_THAT(read.err, testing::AllOf(HasSubstr("(unknown) at offset"), HasSubstr("type 77 in version 3")));
+    EXPECT_THAT(read.err, testing::AllOf(HasSubstr("(unknown)"), HasSubstr("type 77")));
 }
 
 TEST_P(BadCapture, WhoseTextIsNoUtf8OrCommandsATerminalIsShownWithoutThat) {

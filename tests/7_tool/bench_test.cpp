@@ -9,6 +9,7 @@
 
 #include "captures/scenarios.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "replay/bench/bench.h"
 #include "replay/bench/device_bench.h"
 #include "replay/report/variants.h"
@@ -51,7 +52,7 @@ void expect_every_ratio_measured(const Technique& technique) {
         EXPECT_EQ(row["extent"], json({48, 27}));
         EXPECT_EQ(row["ratio"]["repeats"], 2);
         EXPECT_GT(row["ratio"]["low"], 0);
-        for (const char* way : {"of", "against"}) EXPECT_GT(row[way]["ms"]["median"], 0) << row;
+        for (const char* variant : {"of", "against"}) EXPECT_GT(row[variant]["ms"]["median"], 0) << row;
         EXPECT_NE(row["of"], row["against"]);
         EXPECT_EQ(row.contains("published"), stated.published.has_value());
     }
@@ -79,8 +80,8 @@ TEST(BenchVerb, EveryPublishedRatioHasASourceAndEveryCounterIsOneOfEitherWays) {
             const auto of = variant_of(technique, ratio.of, {}), against = variant_of(technique, ratio.against, {});
             ASSERT_TRUE(of && against) << ratio.name;
             for (const std::string_view counter : ratio.counters) {
-                const auto has = [&](const Variant& way) {
-                    return std::ranges::count(way.technique->counters, counter, &Counter::name) > 0;
+                const auto has = [&](const Variant& variant) {
+                    return std::ranges::count(variant.technique->counters, counter, &Counter::name) > 0;
                 };
                 EXPECT_TRUE(has(*of) || has(*against)) << ratio.name << " has no counter " << counter;
             }
@@ -96,12 +97,8 @@ TEST(BenchVerb, MeasuresAWayInAChangedFrameOfTheScenario) {
     EXPECT_GT(row["of"]["counters"]["injected"], row["against"]["counters"]["injected"]);
     EXPECT_GT(row["of"]["stage_bytes"], 0);
     ASSERT_EQ(strata("record two_rooms -o rooms.strata").code, 0);
-    const Finished of_capture = strata("bench lpv rooms.strata --only 'injection: 4 lights' --repeats 1");
-    EXPECT_NE(of_capture.code, 0);
-    EXPECT_THAT(
-        of_capture.err,
-        HasSubstr(
-            "changes frames of scenario hall_of_lights_65 and cannot be measured on a capture: run strata bench without one"));
+    EXPECT_THAT(strata("-v bench lpv rooms.strata --only 'injection: 4 lights' --repeats 1"),
+                Refuses(2, "bench.needs_scenario", "scenario=hall_of_lights_65"));
 }
 
 TEST(BenchVerb, CountsInTheLastRepeatWhichIsTimedAndNotInTheWarmUp) {
@@ -117,7 +114,7 @@ TEST(BenchVerb, TakesACaptureAndWritesTheJsonBesideTheTable) {
     const Finished made = strata(command_of_one() + " -o ratios.json" + " pane.strata");
     ASSERT_EQ(made.code, 0) << made.err;
     EXPECT_THAT(made.out, AllOf(HasSubstr("measured"), HasSubstr("published"), HasSubstr("of pane.strata, 64 x 36, 1 sample"),
-                                HasSubstr("2 timed runs of each way")));
+                                HasSubstr("2 timed runs of each variant")));
     std::ifstream file(folder() / "ratios.json");
     const json bench = json::parse(file);
     ASSERT_EQ(bench["rows"].size(), 1u);
@@ -134,18 +131,18 @@ TEST(BenchVerb, WrongRequestsEndWithASentence) {
         else if (technique.stage == Stage::transparency) stating = short_name(technique);
     const std::string misspelled = stating.substr(0, stating.size() - 1);
     const Refusal wrongs[] = {
-        {misspelled, 2, "did you mean " + stating},
-        {silent, 2, silent + " lists no ratios to measure; these techniques do: "},
-        {stating + " --only nothing_like_it", 2, "has 'nothing_like_it' in its name; its ratios: "},
-        {stating + " --size 48by27", 2, "WIDTHxHEIGHT"},
-        {stating + " --repeats 0", 2, "--repeats"},
-        {"device --only wrap", 2, "--only selects ratios of a technique"},
-        {"devise", 2, "did you mean device"},
-        {stating + " --frame 1", 2, "capture"},
-        {stating + " --size 48x27 --set colour=1", 2, "has a parameter"},
-        {stating + " nowhere.strata", 3, "nowhere.strata"},
-        {stating + " opaque.strata --frame 1", 2, "frame 1"},
-        {stating + " opaque.strata", 2, "the frame does not need transparency: "},
+        {misspelled, 2, "technique.unknown", "did you mean " + stating},
+        {silent, 2, "bench.no_ratios", "technique=" + silent},
+        {stating + " --only nothing_like_it", 2, "bench.unknown_ratio", "only=nothing_like_it"},
+        {stating + " --size 48by27", 2, "options.malformed", "option=--size value=48by27"},
+        {stating + " --repeats 0", 2, "options.out_of_range", "low=1 high=1000 value=0 option=--repeats"},
+        {"device --only wrap", 2, "options.not_applicable", "option=--only"},
+        {"devise", 2, "technique.unknown", "did you mean device"},
+        {stating + " --frame 1", 2, "options.needs", "option=--frame other=capture"},
+        {stating + " --size 48x27 --set colr=1", 2, "settings.unknown", "setting=colr"},
+        {stating + " nowhere.strata", 3, "file.cannot_open", "file=nowhere.strata"},
+        {stating + " opaque.strata --frame 1", 2, "capture.no_frame", "frame=1 frames=1"},
+        {stating + " opaque.strata", 2, "stage.not_needed", "stage=transparency"},
     };
     expect_refusals("bench", wrongs);
 }
@@ -197,20 +194,22 @@ TEST(BenchText, OfADeviceFitsATerminalAndSaysWhatIsCounted) {
     bench.stopped = "stopped after 3 of 7 timed runs";
     EXPECT_THAT(as_text(bench), HasSubstr("\nstopped after 3 of 7 timed runs\n"));
     EXPECT_EQ(json::parse(as_json(bench))["stopped"], bench.stopped);
-    EXPECT_THAT(text, AllOf(HasSubstr("a buffer of 1 MB"), HasSubstr("not counted"), HasSubstr("every loop turned once"),
+    EXPECT_THAT(text, AllOf(HasSubstr("a buffer of 1 MB"), HasSubstr("not counted"), HasSubstr("every loop iterated once"),
                             HasSubstr("whole and once")));
 }
 
 TEST(BenchText, FitsATerminalOf120ColumnsAndSaysWhatWasNotMeasured) {
-    const std::string words = "one way of many words against another of as many, which does not end before the line does, and on";
+    const std::string words =
+        "one variant of many words against another of as many, which does not end before the line does, and on";
     const std::string source(300, 'x');
     const TimeRatio ratio{.name = words, .steps = {"a step"}, .published = 1.5, .source = source};
     const Technique technique{.stage = Stage::transparency, .name = "transparency/some_technique"};
     const Claim claim{.technique = &technique, .ratio = &ratio, .scene = words};
-    TimedWay way{"transparency/some_technique", words, Spread{.median = 1.25, .mad = .25}, {}};
-    for (int i = 0; i < 20; ++i) way.counters.push_back({way.technique, "some counter", 123456});
+    TimedVariant variant{"transparency/some_technique", words, Spread{.median = 1.25, .mad = .25}, {}};
+    for (int i = 0; i < 20; ++i) variant.counters.push_back({variant.technique, "some counter", 123456});
     Bench bench{.device = {.name = "a device", .driver = "its driver"}, .repeats = 7};
-    bench.rows.push_back({.claim = claim, .width = 320, .height = 180, .of = way, .against = way, .ratio = {.median = 2.5}});
+    bench.rows.push_back(
+        {.claim = claim, .width = 320, .height = 180, .of = variant, .against = variant, .ratio = {.median = 2.5}});
     const TimeRatio of_stages{.name = words, .stages = {Stage::gbuffer, Stage::film}};
     bench.rows.push_back(
         {.claim = {.technique = &technique, .ratio = &of_stages, .scene = words}, .not_measured = "the frame does not need it"});
@@ -218,7 +217,7 @@ TEST(BenchText, FitsATerminalOf120ColumnsAndSaysWhatWasNotMeasured) {
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
     EXPECT_THAT(text, AllOf(HasSubstr("2.50 +-0.00"), HasSubstr("1.50"), HasSubstr("some counter 123456"),
-                            HasSubstr("not measured: the frame does not need it"), HasSubstr("a step of one way")));
+                            HasSubstr("not measured: the frame does not need it"), HasSubstr("a step of one variant")));
     const json made = json::parse(as_json(bench));
     EXPECT_EQ(made["rows"][0]["steps"], json({"a step"}));
     EXPECT_EQ(made["rows"][1]["steps"], json({"gbuffer:", "film:"}));

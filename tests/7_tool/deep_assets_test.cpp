@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "replay/images/image_io.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/deep_exr.h"
@@ -33,12 +34,12 @@ std::map<std::string, double> reported_errors(const std::string& options) {
     std::map<std::string, double> errors;
     const json report = json::parse(made.out);
     for (const json& row : report["rows"])
-        for (const json& figure : row["method_error"])
-            if (figure["metric"] == "rmse") errors[row["technique"]] = figure["value"];
+        for (const json& metric : row["technique_error"])
+            if (metric["metric"] == "rmse") errors[row["technique"]] = metric["value"];
     return errors;
 }
 
-TEST(ExhaustiveDeepReport, IsHowFarEveryMethodIsFromTheExactComposite) {
+TEST(ExhaustiveDeepReport, IsHowFarEveryTechniqueIsFromTheExactComposite) {
     std::ofstream(folder() / "image.exr", std::ios::binary) << deep_file(two_layers());
     ASSERT_EQ(strata("import --deep image.exr -o image.strata").code, 0);
     const auto errors = reported_errors("--sweep form=average"), of_sums = reported_errors("--sweep form=sum");

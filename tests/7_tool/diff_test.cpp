@@ -25,11 +25,11 @@ protected:
     static bool exists(const std::string& name) { return std::filesystem::exists(folder() / name); }
 };
 
-/// The verdict on an image of an act.
-std::string verdict_of(const json& frame, const std::string& act, const std::string& image) {
-    for (const json& row : frame["acts"])
+/// The verdict on an image of a pass.
+std::string verdict_of(const json& frame, const std::string& pass, const std::string& image) {
+    for (const json& row : frame["passes"])
         for (const json& candidate : row["images"])
-            if (row["act"] == act && candidate["image"] == image) return candidate["verdict"];
+            if (row["pass"] == pass && candidate["image"] == image) return candidate["verdict"];
     return "absent";
 }
 
@@ -40,11 +40,10 @@ TEST_F(Diff, OfACaptureAndItselfIsExitZero) {
 }
 
 TEST_F(Diff, OfTwoTechniquesNamesTheStageAndWhatStayedTheSame) {
-    const Finished other = strata("diff panes.strata --use transparency/weighted --json");
-    EXPECT_EQ(other.code, 1);
-    EXPECT_THAT(other.err, HasSubstr("transparency: color"));
+    const Finished other = strata("-v diff panes.strata --use transparency/weighted --json");
+    EXPECT_THAT(other, Refuses(1, "diff.over_tolerance", "frame=0 pass=transparency image=color"));
     const json diff = json::parse(other.out), frame = diff["frames"][0];
-    EXPECT_EQ(frame["first_difference"]["act"], "transparency");
+    EXPECT_EQ(frame["first_difference"]["pass"], "transparency");
     EXPECT_EQ(verdict_of(frame, "combine", "color"), "same");
     EXPECT_EQ(verdict_of(frame, "transparency", "color"), "over");
     EXPECT_EQ(diff["rerun"], "strata diff panes.strata --use transparency/weighted --json");
@@ -56,14 +55,12 @@ TEST_F(Diff, OfTwoDevicesOpensBothAndSaysWhichTheyAre) {
     const json diff = json::parse(same.out);
     EXPECT_THAT(diff["b"]["device"]["name"].get<std::string>(), HasSubstr("llvmpipe"));
     EXPECT_EQ(diff["a"]["device"], diff["b"]["device"]);
-    const Finished none = strata("diff panes.strata --gpu-b no_such_device");
-    EXPECT_EQ(none.code, 2);
-    EXPECT_THAT(none.err, HasSubstr("no_such_device"));
+    EXPECT_THAT(strata("-v diff panes.strata --gpu-b no_such_device"), Refuses(2, "device.unknown", "device=no_such_device"));
     const Finished lacking = strata("diff panes.strata --use transparency/weighted --memory-budget 1KiB");
     EXPECT_EQ(lacking.code, 4) << lacking.err;
 }
 
-TEST_F(Diff, OfTwoIndependentDevicesNamesBothAndTheFirstActThatDiverges) {
+TEST_F(Diff, OfTwoIndependentDevicesNamesBothAndTheFirstPassThatDiverges) {
     if (second_driver().empty()) GTEST_SKIP() << no_second_driver;
     const std::string both = "export VK_ADD_DRIVER_FILES=" + second_driver();
     const std::string devices = fmt::format("--gpu-a llvmpipe --gpu-b {}", second_gpu());
@@ -75,7 +72,7 @@ TEST_F(Diff, OfTwoIndependentDevicesNamesBothAndTheFirstActThatDiverges) {
     EXPECT_FALSE(frame["first_difference"].is_null());
     // Two roundings of the same arithmetic: nothing that an eye sees.
     EXPECT_EQ(strata_after(both, "diff panes.strata --limit 0.05 " + devices).code, 0);
-    EXPECT_EQ(strata_after(both, "replay panes.strata --repeat 2 --gpu " + second_gpu()).code, 0);
+    EXPECT_EQ(strata_after(both, "replay panes.strata --repeats 2 --gpu " + second_gpu()).code, 0);
     const Finished chromatic = strata_after(both, "record red_and_green_glass --size 16x9 -o glass.strata");
     ASSERT_EQ(chromatic.code, 0) << chromatic.err;
     const Finished refused = strata_after(both, "replay glass.strata --use alpha_blend --gpu " + second_gpu());
@@ -123,7 +120,7 @@ TEST_F(Diff, IsRelativeToAWhicheverSideIsReplayed) {
     const auto error_of = [](const std::string& command) {
         const json made = json::parse(strata(command).out);
         EXPECT_EQ(made["reference"], "a");
-        for (const json& image : made["frames"][0]["acts"][0]["images"])
+        for (const json& image : made["frames"][0]["passes"][0]["images"])
             if (image["image"] == "color") return image["error"];
         return json();
     };
@@ -133,16 +130,15 @@ TEST_F(Diff, IsRelativeToAWhicheverSideIsReplayed) {
     EXPECT_NE(replay_first["relative_rmse"], image_first["relative_rmse"]);
     EXPECT_EQ(replay_first["worst_pixel"]["a"], image_first["worst_pixel"]["b"]);
     EXPECT_THAT(strata("diff out/panes.f0000.exr panes.strata").out, HasSubstr("relative errors are relative to A"));
-    EXPECT_THAT(strata("diff out/panes.f0000.exr panes.strata --use-a weighted").err,
-                HasSubstr("--use-a does not apply: A is an image and not replayed"));
+    EXPECT_THAT(strata("-v diff out/panes.f0000.exr panes.strata --use-a weighted"),
+                Refuses(2, "options.not_applicable", "option=--use-a reason=\"A is an image"));
 }
 
 TEST_F(Diff, OfTwoSizesIsExitTwoWithBothShapes) {
     ASSERT_EQ(strata("record three_panes --size 65x36 -o wider.strata").code, 0);
-    const Finished refused = strata("diff panes.strata wider.strata");
-    EXPECT_EQ(refused.code, 2);
-    EXPECT_THAT(refused.err, HasSubstr("64 x 36"));
-    EXPECT_THAT(refused.err, HasSubstr("65 x 36"));
+    const Finished refused = strata("-v diff panes.strata wider.strata");
+    EXPECT_THAT(refused, Refuses(2, "image.shapes_differ", "a=\"64 x 36"));
+    EXPECT_THAT(refused, Refuses(2, "image.shapes_differ", "b=\"65 x 36"));
 }
 
 TEST_F(Diff, WritesPicturesAndJunitAndRemovesPicturesThatNoLongerHold) {
@@ -161,10 +157,11 @@ TEST_F(Diff, OfOneImageIsRefusedAndSoAreLimitsOnWhatImagesDoNotHold) {
     const std::string png = "out/panes.f0000.png", two = png + " " + png + " ";
     for (const std::string of_b :
          {"", " --use weighted", " --use nonsense", " --set weight=w9", " --use-a weighted", " --gpu-b 0"})
-        expect_refusals("diff", std::array{Refusal{png + of_b, 2, "name a second image to compare it with"}});
-    const Refusal refusals[] = {{two + "--ulps 3", 2, "--ulps does not apply: none of the images is depth"},
-                                {two + "--tone-mapper hable", 2, "--tone-mapper does not apply"},
-                                {two + "--exposures 1,2", 2, "--exposures does not apply"}};
+        expect_refusals("diff", std::array{Refusal{png + of_b, 2, "diff.nothing_to_compare", "file=" + png}});
+    const Refusal refusals[] = {{two + "--ulps 3", 2, "options.not_applicable", "option=--ulps"},
+                                {two + "--tone-mapper hable", 2, "options.not_applicable", "option=--tone-mapper"},
+                                {two + "--exposures 1,2", 2, "options.not_applicable", "option=--exposures"},
+                                {two + "--exposures 2,1", 2, "options.malformed", "value=2,1 option=--exposures"}};
     expect_refusals("diff", refusals);
     EXPECT_EQ(strata("diff " + two + "--ppd 40").code, 0);
     EXPECT_EQ(strata("diff out/panes.f0000.exr out/panes.f0000.exr --ulps 3 --tone-mapper hable").code, 0);
@@ -174,9 +171,8 @@ TEST_F(Diff, OfOneImageIsRefusedAndSoAreLimitsOnWhatImagesDoNotHold) {
 TEST_F(Diff, OfImagesAtTwoPlacesOfTheirPicturesIsExitTwoWithBothWindows) {
     std::ofstream(folder() / "a.exr", std::ios::binary) << flat_file(4, 2);
     std::ofstream(folder() / "b.exr", std::ios::binary) << flat_file(4, 2, {3, 1});
-    const Finished refused = strata("diff a.exr b.exr");
-    EXPECT_EQ(refused.code, 2);
-    EXPECT_THAT(refused.err, HasSubstr("A covers the pixels (0, 0) to (3, 1) of its picture, B (3, 1) to (6, 2)"));
+    EXPECT_THAT(strata("-v diff a.exr b.exr"),
+                Refuses(2, "image.windows_differ", "a=\"(0, 0) to (3, 1)\" b=\"(3, 1) to (6, 2)\""));
     EXPECT_EQ(strata("diff b.exr b.exr").code, 0);
 }
 
@@ -184,9 +180,7 @@ TEST_F(Diff, OfAPngThatEndsTooEarlySaysSo) {
     ASSERT_EQ(strata("replay panes.strata -o out").code, 0);
     const std::string whole = contents("out/panes.f0000.png");
     std::ofstream(folder() / "cut.png", std::ios::binary) << whole.substr(0, whole.size() / 2);
-    const Finished failed = strata("diff cut.png out/panes.f0000.png");
-    EXPECT_EQ(failed.code, 3);
-    EXPECT_THAT(failed.err, testing::MatchesRegex("strata: cannot read cut.png: .+\n"));
+    EXPECT_THAT(strata("-v diff cut.png out/panes.f0000.png"), Refuses(3, "image.cannot_read", "file=cut.png"));
 }
 
 TEST_F(Diff, WhatCannotBeComparedIsASentence) {

@@ -8,6 +8,7 @@
 #include "capture_format/reader.h"
 #include "capture_format/recorder.h"
 #include "passes/registry.h"
+#include "replay/expectations/expectation_keys.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/file_text.h"
 #include "tests/support/session.h"
@@ -24,12 +25,13 @@ void record_panes() { ASSERT_EQ(strata("record three_panes -o panes.strata").cod
 std::string bytes_of_panes() { return file_text(folder() / "panes.strata"); }
 
 /// As if the capture had been accepted by a program that gave other bits for one image.
-void expect_otherwise(const std::string& act, const std::string& image) {
+void expect_otherwise(const std::string& pass, const std::string& image) {
     const Capture capture = must(Capture::open(folder() / "panes.strata"));
     json expectation = json::parse(capture.expectations().back());
-    for (json& of_act : expectation["acts"])
-        for (json& of_image : of_act["images"])
-            if (of_act["act"] == act && of_image["name"] == image) of_image["hash"] = std::string(32, '0');
+    for (json& of_pass : expectation[expectation_keys(expectation_version).passes])
+        for (json& of_image : of_pass["images"])
+            if (of_pass[expectation_keys(expectation_version).pass] == pass && of_image["name"] == image)
+                of_image["hash"] = std::string(32, '0');
     must(append_expectation(folder() / "panes.strata", expectation.dump()));
 }
 
@@ -67,9 +69,7 @@ TEST(Accept, OfImagesMakesSectionsThatTheToolKnowsItself) {
 TEST(Validate, RefusesAnExpectationThatIsNoJson) {
     record_panes();
     must(append_expectation(folder() / "panes.strata", "display 1234"));
-    const Finished refused = strata("validate panes.strata");
-    EXPECT_EQ(refused.code, 3);
-    EXPECT_THAT(refused.err, testing::AllOf(HasSubstr("panes.strata"), HasSubstr("an expectation cannot be read")));
+    EXPECT_THAT(strata("-v validate panes.strata"), Refuses(3, "expectation.cannot_read", "capture=panes.strata"));
 }
 
 TEST(Validate, RefusesAChangedHeaderOfASection) {
@@ -77,16 +77,14 @@ TEST(Validate, RefusesAChangedHeaderOfASection) {
     std::string bytes = bytes_of_panes();
     bytes[16 + 8] ^= 1;  // version of the first section, which the directory repeats
     std::ofstream(folder() / "panes.strata", std::ios::binary) << bytes;
-    const Finished refused = strata("validate panes.strata");
-    EXPECT_EQ(refused.code, 3);
-    EXPECT_THAT(refused.err, HasSubstr("its header is not the one in the directory"));
+    EXPECT_THAT(strata("-v validate panes.strata"), Refuses(3, "capture.section.header"));
 }
 
 TEST(Validate, SaysInJsonWhatIsWrong) {
     record_panes();
     const nlohmann::json sound = nlohmann::json::parse(strata("validate panes.strata --json").out);
     EXPECT_EQ(sound["is_sound"], true);
-    EXPECT_FALSE(sound.contains("problem"));
+    EXPECT_FALSE(sound.contains("error"));
     std::string bytes = bytes_of_panes();
     bytes[bytes.size() / 2] ^= 1;
     std::ofstream(folder() / "panes.strata", std::ios::binary) << bytes;
@@ -95,7 +93,7 @@ TEST(Validate, SaysInJsonWhatIsWrong) {
     const nlohmann::json problem = nlohmann::json::parse(refused.out);
     EXPECT_EQ(problem["schema"], "strata.validate");
     EXPECT_EQ(problem["is_sound"], false);
-    EXPECT_EQ("strata: " + problem["problem"].get<std::string>() + "\n", refused.err);
+    EXPECT_EQ("strata: " + problem["error"]["sentence"].get<std::string>() + "\n", refused.err);
 }
 
 TEST(Validate, SaysInJsonThatAFileCannotBeOpened) {
@@ -104,7 +102,7 @@ TEST(Validate, SaysInJsonThatAFileCannotBeOpened) {
         EXPECT_EQ(refused.code, 3) << file;
         const nlohmann::json problem = nlohmann::json::parse(refused.out);
         EXPECT_EQ(problem["is_sound"], false) << file;
-        EXPECT_THAT(refused.err, testing::HasSubstr("strata: " + problem["problem"].get<std::string>())) << file;
+        EXPECT_THAT(refused.err, testing::HasSubstr("strata: " + problem["error"]["sentence"].get<std::string>())) << file;
         EXPECT_EQ(strata(fmt::format("validate {}", file)).out, "") << file;
     }
 }
@@ -154,16 +152,16 @@ TEST(Accept, OfACaptureThatCannotBeReplacedIsAnErrorAndLeavesIt) {
     EXPECT_EQ(strata("accept panes.strata --use nothing/here").code, 2);
 }
 
-TEST(Expect, ADivergenceIsExitOneAndNamesTheFirstAct) {
+TEST(Expect, ADivergenceIsExitOneAndNamesTheFirstPass) {
     record_panes();
     ASSERT_EQ(strata("accept panes.strata").code, 0);
     expect_otherwise("transparency", "color");
-    const Finished diverged = strata("replay panes.strata --json");
-    EXPECT_EQ(diverged.code, 1);
-    EXPECT_THAT(diverged.err, HasSubstr("the first pass that diverges is transparency: 'color'"));
+    const Finished diverged = strata("-v replay panes.strata --json");
+    EXPECT_THAT(diverged, Refuses(1, "replay.diverges", "divergence=\"transparency: 'color'"));
+    EXPECT_EQ(json::parse(diverged.out)["error"]["id"], "replay.diverges");
     const json verdict = json::parse(diverged.out)["frames"][0]["expectation"];
     EXPECT_EQ(verdict["agreement"], "diverges");
-    EXPECT_EQ(verdict["first_divergence"]["act"], "transparency");
+    EXPECT_EQ(verdict["first_divergence"]["pass"], "transparency");
     EXPECT_EQ(strata("replay panes.strata --no-expect").code, 0);
 }
 
@@ -181,11 +179,10 @@ TEST(Expect, OtherChoicesAreExitSixWithTheCommandThatAcceptsThem) {
     record_panes();
     ASSERT_EQ(strata("accept panes.strata").code, 0);
     const std::string other = " --use " + std::string(techniques_of(Stage::transparency)[1]->name);
-    const Finished missing = strata("replay panes.strata" + other);
-    EXPECT_EQ(missing.code, 6);
+    const Finished missing = strata("-v replay panes.strata" + other);
     EXPECT_THAT(strata("replay panes.strata --json" + other).err, HasSubstr("\"transparency\":{\"color\":\""));
     const std::string command = "accept 'panes.strata' --frames 0" + other;
-    EXPECT_THAT(missing.err, HasSubstr("strata " + command));
+    EXPECT_THAT(missing, Refuses(6, "replay.no_expectation", "command=\"strata " + command));
     ASSERT_EQ(strata(command).code, 0);
     EXPECT_EQ(strata("replay panes.strata" + other).code, 0);
     EXPECT_EQ(strata("replay panes.strata").code, 0);
@@ -224,21 +221,19 @@ TEST(MemoryBudget, IsGivenWithItsUnitAndRefusedWithNumbers) {
     EXPECT_LE(memory["device_peak_bytes"], 256 << 20);
     EXPECT_GT(memory["stages"]["gbuffer"]["peak_bytes"], 0);
     EXPECT_GT(memory["host_peak_bytes"], 0);
-    const Finished refused = strata("report panes.strata --memory-budget 64KiB");
-    EXPECT_EQ(refused.code, 4);
-    EXPECT_THAT(refused.err, HasSubstr("the memory budget is 0.1 MiB"));
+    EXPECT_THAT(strata("-v report panes.strata --memory-budget 64KiB"), Refuses(4, "memory.budget", "budget=\"0.1 MiB\""));
 }
 
-TEST(ReplayJson, NamesStepsByIndexAndHashesEveryAct) {
+TEST(ReplayJson, NamesStepsByIndexAndHashesEveryPass) {
     record_panes();
     const Finished replayed = strata("replay panes.strata --json --time 3");
     ASSERT_EQ(replayed.code, 0) << replayed.err;
     const json frame = json::parse(replayed.out)["frames"][0];
     EXPECT_EQ(frame["steps"][1]["index"], 1);
     for (const json& step : frame["steps"]) EXPECT_TRUE(step["gpu_ms"].contains("mad")) << step;
-    ASSERT_GE(frame["acts"].size(), 3u);
-    for (const json& act : frame["acts"])
-        for (const auto& [image, hash] : act["hash"].items()) EXPECT_EQ(hash.get<std::string>().size(), 32u) << image;
+    ASSERT_GE(frame["passes"].size(), 3u);
+    for (const json& pass : frame["passes"])
+        for (const auto& [image, hash] : pass["hash"].items()) EXPECT_EQ(hash.get<std::string>().size(), 32u) << image;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "capture_format/container/container.h"
 #include "capture_format/reader.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "replay/difference/picture.h"
 #include "replay/images/image_io.h"
 #include "tests/7_tool/process.h"
@@ -32,11 +33,10 @@ std::string contents_of(const std::string& name) { return file_text(folder() / n
 
 TEST(Export, WantsExactlyOneKind) {
     ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0);
-    EXPECT_THAT(strata("export panes.strata -o x").err,
-                HasSubstr("choose what to export: one of --deep, --image, --gltf, --json"));
-    const Finished both = strata("export panes.strata --deep --json -o x");
-    EXPECT_EQ(both.code, 2);
-    EXPECT_THAT(both.err, HasSubstr("--deep and --json cannot be asked for together"));
+    EXPECT_THAT(strata("-v export panes.strata -o x"),
+                Refuses(2, "options.missing", "option=\"--deep, --image, --gltf, --json\""));
+    EXPECT_THAT(strata("-v export panes.strata --deep --json -o x"),
+                Refuses(2, "options.excluded", "option=--deep other=--json"));
     EXPECT_EQ(strata("export panes.strata --json").code, 2) << "without -o";
     EXPECT_EQ(strata("export panes.strata --json --frame 9 -o x").code, 2);
     EXPECT_EQ(strata("export nowhere.strata --json -o x").code, 3);
@@ -61,12 +61,8 @@ TEST(Export, WritesADeepImageThatComesBackAsTheSameFragments) {
 
 TEST(Export, RefusesGlassAndSamplesThatADeepImageCannotHoldUntilToldHow) {
     ASSERT_EQ(strata("record red_and_green_glass --samples 4 -o glass.strata").code, 0);
-    const Finished samples = strata("export glass.strata --deep -o glass.exr");
-    EXPECT_EQ(samples.code, 2);
-    EXPECT_THAT(samples.err, HasSubstr("choose --sample 0 to 3"));
-    const Finished glass = strata("export glass.strata --deep --sample 2 -o glass.exr");
-    EXPECT_EQ(glass.code, 2);
-    EXPECT_THAT(glass.err, HasSubstr("--transmittance mean"));
+    EXPECT_THAT(strata("-v export glass.strata --deep -o glass.exr"), Refuses(2, "export.choose_sample", "samples=4"));
+    EXPECT_THAT(strata("-v export glass.strata --deep --sample 2 -o glass.exr"), Refuses(2, "deep.chromatic"));
     EXPECT_FALSE(std::filesystem::exists(folder() / "glass.exr"));
     EXPECT_EQ(strata("export glass.strata --deep --sample 2 --transmittance mean -o glass.exr").code, 0);
     EXPECT_EQ(strata("export glass.strata --deep --sample 4 -o glass.exr").code, 2);
@@ -103,7 +99,8 @@ TEST(Export, WritesImagesAndViewsByTheirNames) {
     EXPECT_GE(must(read_png(folder() / "color.png")).shape.extent.width, 480u);
     EXPECT_EQ(strata("export panes.strata --image color,display -o both.png").code, 2);
     EXPECT_EQ(strata("export panes.strata --image color -o color.jpg").code, 2);
-    EXPECT_THAT(strata("export panes.strata --image colour -o color.exr").err, HasSubstr("did you mean color"));
+    EXPECT_THAT(strata("-v export panes.strata --image colr -o color.exr"),
+                Refuses(2, "frame.unknown_image", "image=colr suggestion=\"; did you mean color?\""));
 }
 
 /// A square map in a picture that is not square.

@@ -13,7 +13,7 @@ constexpr FileVerb table[] = {
     {"bench", "bench voxel", "--repeats 1 --only wrap -o bench.json", ".strata", true},
     {"spectra", "spectra", "--modes 3 -o spectra.json", ".strata", true},
     {"diff", "diff", "--use transparency/weighted --limit 1000 -o pictures --junit junit.xml", ".strata", true},
-    {"probe", "probe", "--at 8,4 --methods sorted_lists --depths 16 -o probed", ".strata", true},
+    {"probe", "probe", "--at 8,4 --techniques sorted_lists --depths 16 -o probed", ".strata", true},
     {"inspect", "inspect", "--size 400x300 --script /dev/null", ".strata", true},
     {"export_deep", "export --deep --transmittance mean -o made.exr", "", ".strata", true},
     {"export_gltf", "export --gltf -o made.glb", "", ".strata", true},
@@ -23,14 +23,14 @@ constexpr FileVerb table[] = {
     {"import_deep", "import --deep", "-o made.strata", ".exr", false},
 };
 
-constexpr const char* names[] = {"list",  "record", "import", "info",  "validate", "replay",  "accept", "export",
-                                 "graph", "diff",   "report", "probe", "bench",    "spectra", "isa",    "inspect"};
+constexpr const char* every_verb[] = {"list",  "record", "import", "info",  "validate", "replay",  "accept", "export",
+                                      "graph", "diff",   "report", "probe", "bench",    "spectra", "isa",    "inspect"};
 
 }  // namespace
 
 std::span<const FileVerb> file_verbs() { return table; }
 
-std::span<const char* const> verb_names() { return names; }
+std::span<const char* const> verb_names() { return every_verb; }
 
 std::vector<FileVerb> capture_verbs() {
     std::vector<FileVerb> found;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
 #include "replay/report/flicker.h"
 #include "tests/support/session.h"

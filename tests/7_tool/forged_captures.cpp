@@ -97,48 +97,49 @@ Bytes frame(std::uint64_t bytes) {
 void add_container_lies(std::vector<ForgedCapture>& forged) {
     const Bytes good = sound_capture();
     constexpr std::uint64_t four_gib = std::uint64_t{4} << 30;
-    forged.push_back({"a newer container", overwritten(good, version_at, std::uint32_t{2}), "container version 2"});
-    forged.push_back({"a section of 4 GiB", claiming(good, four_gib), "at offset 16 (notes) needs 4294967296 bytes"});
-    forged.push_back({"a section of 2^64 - 8 bytes", claiming(good, ~std::uint64_t{7}), "at offset 16 (notes) needs"});
+    forged.push_back({"a newer container", overwritten(good, version_at, std::uint32_t{2}), "capture.container_version:"});
+    forged.push_back({"a section of 4 GiB", claiming(good, four_gib), "capture.section.cut: kind=notes needed_bytes=4294967296"});
+    forged.push_back({"a section of 2^64 - 8 bytes", claiming(good, ~std::uint64_t{7}), "capture.section.cut: kind=notes"});
     const Bytes newer(8);
-    forged.push_back({"a newer frame", file_of({{SectionType::frame, 99, newer, 8}}), "open it with a newer strata"});
+    forged.push_back({"a newer frame", file_of({{SectionType::frame, 99, newer, 8}}), "capture.frame.version: version=99"});
 }
 
 void add_bulk_lies(std::vector<ForgedCapture>& forged) {
     constexpr std::uint64_t four_gib = std::uint64_t{4} << 30, bomb = std::uint64_t{256} << 20;
-    const auto add = [&](const char* name, const char* says, const Payload& section) {
-        forged.push_back({name, file_of({section}), fmt::format("({}) at offset 16{}", strata::name(section.type), says)});
+    const auto add = [&](const char* name, const char* id, const Payload& section) {
+        forged.push_back({name, file_of({section}), id});
     };
     const Bytes many = blobs(std::uint64_t{1} << 40, 8), large = blobs(1, four_gib);
-    add("2^40 blobs", "", {SectionType::blobs, blobs_version, many, 8});
-    add("a blob of 4 GiB", "", {SectionType::blobs, blobs_version, large, four_gib});
+    add("2^40 blobs", "capture.blobs.index_cut: blobs=1099511627776", {SectionType::blobs, blobs_version, many, 8});
+    add("a blob of 4 GiB", "capture.blobs.too_large: bytes=4294967296", {SectionType::blobs, blobs_version, large, four_gib});
     const Bytes large_frame = frame(four_gib), bomb_frame = frame(bomb);
-    add("a frame of 4 GiB", " claims 4294967296 bytes", {SectionType::frame, 2, large_frame, four_gib});
-    add("a frame that is a bomb", ": it does not decompress", {SectionType::frame, 2, bomb_frame, bomb});
+    add("a frame of 4 GiB", "capture.frame.too_large: bytes=4294967296", {SectionType::frame, 2, large_frame, four_gib});
+    add("a frame that is a bomb", "capture.section.decompress:", {SectionType::frame, 2, bomb_frame, bomb});
 }
 
 void add_frame_lies(std::vector<ForgedCapture>& forged) {
-    const auto add = [&](const char* name, const char* says, const std::function<void(Frame&)>& change) {
-        forged.push_back({name, with_changed_frame(change), says});
+    const auto add = [&](const char* name, const char* id, const std::function<void(Frame&)>& change) {
+        forged.push_back({name, with_changed_frame(change), id});
     };
-    add("a mesh past its table", "(frame) at offset", [](Frame& frame) { frame.draws[0].mesh = 7; });
-    add("a vertex past its mesh", "points at vertex 9 of 3", [](Frame& frame) { frame.meshes[0].indices[1] = 9; });
-    add("an unknown enum", "there is no lighting model 99",
+    add("a mesh past its table", "frame.index_range: list=mesh index=7", [](Frame& frame) { frame.draws[0].mesh = 7; });
+    add("a vertex past its mesh", "frame.vertex_range: index=1 vertex=9 vertices=3",
+        [](Frame& frame) { frame.meshes[0].indices[1] = 9; });
+    add("an unknown enum", "frame.unknown_value: property=\"lighting model\" value=99",
         [](Frame& frame) { frame.materials[0].lighting_model = LightingModel{99}; });
-    add("a NaN", "the frame's time is not finite", [](Frame& frame) { frame.time = std::numeric_limits<double>::quiet_NaN(); });
-    add("a texture of 2^31 texels each way", "the extent must be 1 to 16384 texels",
+    add("a NaN", "frame.not_finite: property=time", [](Frame& frame) { frame.time = std::numeric_limits<double>::quiet_NaN(); });
+    add("a texture of 2^31 texels each way", "frame.extent: most=16384",
         [](Frame& frame) { frame.textures[0].width = frame.textures[0].height = 1u << 31; });
-    add("a view of 2^31 pixels each way", "the extent must be 1 to 16384 pixels",
+    add("a view of 2^31 pixels each way", "frame.extent: most=16384",
         [](Frame& frame) { frame.view.width = frame.view.height = 1u << 31; });
     const auto at_word = [&](const char* name, std::size_t at, std::uint32_t value) {
         const auto change = [=](Bytes& section) { section = overwritten(std::move(section), at, value); };
-        forged.push_back({name, with_frame(rich_frame(), change), "it is not a frame of this format"});
+        forged.push_back({name, with_frame(rich_frame(), change), "capture.frame.not_a_frame:"});
     };
     at_word("a root beyond the end", 0, 0x7fffffff);
     at_word("a root that is no table", 0, 4);
     forged.push_back({"a frame of zeros",
                       with_frame(rich_frame(), [](Bytes& section) { std::ranges::fill(section, std::byte{0}); }),
-                      "it is not a frame of this format"});
+                      "capture.frame.not_a_frame:"});
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace strata {
 struct ForgedCapture {
     std::string name;
     std::vector<std::byte> bytes;
-    std::string says;  ///< part of the sentence that refuses it
+    std::string id;  ///< of the error that refuses it, and what its fields begin with
 };
 
 std::vector<ForgedCapture> forged_captures();

@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-TEST(ExhaustiveHardCasesVerb, WritesWhatEveryMethodMakesOfEveryCase) {
+TEST(ExhaustiveHardCasesVerb, WritesWhatEveryTechniqueMakesOfEveryCase) {
     const Finished made = strata("report --hard-cases --json");
     ASSERT_EQ(made.code, 0) << made.err;
     const json report = json::parse(made.out);
@@ -31,10 +31,9 @@ TEST(ExhaustiveHardCasesVerb, WritesWhatEveryMethodMakesOfEveryCase) {
 }
 
 TEST(HardCasesVerb, TakesNoCaptureAndAReportWithoutItDoes) {
-    EXPECT_EQ(strata("report").code, 2);
-    EXPECT_THAT(strata("report").err, HasSubstr("wants a capture, or --hard-cases"));
+    EXPECT_THAT(strata("-v report"), Refuses(2, "options.missing", "option=capture"));
     EXPECT_EQ(strata("report --hard-cases panes.strata").code, 2);
-    EXPECT_EQ(strata("report --points panes.strata").code, 2);  // a report has them anyway
+    EXPECT_EQ(strata("report --variants panes.strata").code, 2);  // a report has them anyway
 }
 
 }  // namespace

@@ -124,9 +124,9 @@ TEST(ExhaustiveInterrupt, OfADeviceBenchPrintsTheStepsByTheRunsThatAreComplete) 
 TEST(Interrupt, ByTheMinutesThatAReportMayTakeIsNoFailure) {
     write_file(folder() / "sound.strata", sound_capture());
     for (double minutes = .02; minutes < 10; minutes *= 2) {
-        const Finished report = strata(fmt::format("report sound.strata --repeats 1000 --minutes {}", minutes));
+        const Finished report = strata(fmt::format("-v report sound.strata --repeats 1000 --minutes {}", minutes));
         if (report.code == 2) {
-            EXPECT_THAT(report.err, testing::HasSubstr(fmt::format("no row was measured within {} minutes", minutes)));
+            EXPECT_THAT(report, Refuses(2, "report.no_row_in_time", fmt::format("minutes={}", minutes)));
             continue;
         }
         EXPECT_EQ(report.code, 0);

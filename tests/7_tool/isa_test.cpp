@@ -37,7 +37,7 @@ TEST(Isa, CompilesEveryPipelineOfTheFrameForEveryGpu) {
             EXPECT_GE(program["occupancy"]["waves_per_simd"], 1) << program;
         }
         // Every pass is one of a pipeline that was compiled.
-        for (const json& pass : gpu["passes"])
+        for (const json& pass : gpu["steps"])
             EXPECT_TRUE(std::ranges::any_of(gpu["programs"], [&](const json& p) { return p["pipeline"] == pass["pipeline"]; }))
                 << pass;
     }
@@ -67,27 +67,27 @@ TEST(Isa, ModelsTimesOfWhatIsCountedAndSaysThatItDoes) {
     const double cycles_per_ms = gpu["model"]["units"].get<double>() * gpu["model"]["simds_per_unit"].get<double>() *
                                  gpu["model"]["clock_mhz"].get<double>() * 1e3;
     double sum = 0;
-    std::size_t modelled = 0;
-    for (const json& pass : gpu["passes"]) {
-        if (pass["modelled_ms"].is_null()) continue;
+    std::size_t modeled = 0;
+    for (const json& pass : gpu["steps"]) {
+        if (pass["modeled_ms"].is_null()) continue;
         const auto program = std::ranges::find_if(
             gpu["programs"], [&](const json& p) { return p["pipeline"] == pass["pipeline"] && p["stage"] != "vertex"; });
         const double expected =
             pass["invocations"].get<double>() / 64 * program->at("inverse_throughput_cycles").get<double>() / cycles_per_ms;
-        EXPECT_NEAR(pass["modelled_ms"].get<double>(), expected, 1e-9 * expected) << pass;
-        sum += pass["modelled_ms"].get<double>();
-        ++modelled;
+        EXPECT_NEAR(pass["modeled_ms"].get<double>(), expected, 1e-9 * expected) << pass;
+        sum += pass["modeled_ms"].get<double>();
+        ++modeled;
     }
-    EXPECT_GE(modelled, 4u);
-    EXPECT_NEAR(gpu["modelled_ms"].get<double>(), sum, 1e-12);
-    EXPECT_THAT(strata("isa panes.strata --gpu-model navi21").out, HasSubstr("modelled, not measured"));
+    EXPECT_GE(modeled, 4u);
+    EXPECT_NEAR(gpu["modeled_ms"].get<double>(), sum, 1e-12);
+    EXPECT_THAT(strata("isa panes.strata --gpu-model navi21").out, HasSubstr("modeled, not measured"));
 }
 
 TEST(Isa, AFullScreenOfThreadsIsCountedByItsDispatch) {
     record_panes();  // 64 x 36: five rows of groups of 8 x 8, whose last is half empty
     std::size_t whole_screens = 0;
     const json report = isa_json("--no-run --gpu-model bonaire");
-    for (const json& pass : report["gpus"][0]["passes"]) {
+    for (const json& pass : report["gpus"][0]["steps"]) {
         EXPECT_EQ(pass["counted_by"] == "unknown", pass["invocations"].is_null()) << pass;
         whole_screens += pass["invocations"] == 64 * 40;
     }
@@ -140,18 +140,14 @@ TEST(Isa, WithoutACaptureListsTheGpusThatAreKnown) {
 
 TEST(Isa, WrongRequestsAreUsageErrorsWithASentence) {
     record_panes();
-    const std::pair<const char*, const char*> wrongs[] = {
-        {"--gpu-model nav21", "did you mean navi21?"},
-        {"--gpu-model h200", "RADV does not compile for h200"},
-        {"--gpu-model bonaire --frame 9", "there is no frame 9"},
-        {"--gpu-model bonaire --use nothing/here", "nothing/here"},
-        {"--gpu-model bonaire --no-run --dump panes.strata", "cannot make the folder panes.strata"},
+    const Refusal wrongs[] = {
+        {"--gpu-model nav21", 2, "isa.unknown_gpu_model", "did you mean navi21?"},
+        {"--gpu-model h200", 2, "isa.model_not_in_radv", "model=h200"},
+        {"--gpu-model bonaire --frame 9", 2, "capture.no_frame", "frame=9 frames=1"},
+        {"--gpu-model bonaire --use nothing/here", 2, "technique.unknown", "technique=nothing/here"},
+        {"--gpu-model bonaire --no-run --dump panes.strata", 2, "file.cannot_make_folder", "folder=panes.strata"},
     };
-    for (const auto& [wrong, sentence] : wrongs) {
-        const Finished failed = strata(std::string("isa panes.strata ") + wrong);
-        EXPECT_EQ(failed.code, 2) << wrong;
-        EXPECT_THAT(failed.err, HasSubstr(sentence)) << wrong;
-    }
+    expect_refusals("isa panes.strata", wrongs);
 }
 
 TEST(Isa, WithoutRadvItSaysWhatToInstall) {
@@ -159,16 +155,15 @@ TEST(Isa, WithoutRadvItSaysWhatToInstall) {
     const Finished failed = strata_after(
         "export XDG_DATA_DIRS=/nonexistent VK_ICD_FILENAMES=/usr/share/vulkan/icd.d/lvp_icd.x86_64.json "
         "VK_DRIVER_FILES=/usr/share/vulkan/icd.d/lvp_icd.x86_64.json",
-        "isa panes.strata --gpu-model bonaire");
-    EXPECT_EQ(failed.code, 4) << failed.err;
+        "-v isa panes.strata --gpu-model bonaire");
+    EXPECT_THAT(failed, Refuses(4, "isa.no_radv"));
     EXPECT_THAT(failed.err, HasSubstr("install mesa-vulkan-drivers"));
 }
 
 TEST(Isa, ADeviceThatDoesNotSayWhatItCompiledIsNamed) {
     record_panes();
-    const Finished made = strata("isa panes.strata --gpu llvmpipe");
-    EXPECT_EQ(made.code, 4) << made.err;
-    EXPECT_THAT(made.err, HasSubstr("VK_KHR_pipeline_executable_properties"));
+    EXPECT_THAT(strata("-v isa panes.strata --gpu llvmpipe"),
+                Refuses(4, "isa.compiler_failed", "VK_KHR_pipeline_executable_properties"));
 }
 
 TEST(Isa, ItsCompilersVerbIsNoPartOfTheHelp) {

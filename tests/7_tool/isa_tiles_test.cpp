@@ -92,13 +92,13 @@ TEST(IsaTiles, ThatCannotBeShownAreRefusedWithASentence) {
     record_room();
     ASSERT_EQ(strata("record one_pane -o pane.strata").code, 0);
     const Refusal wrongs[] = {
-        {"pane.strata --gpu-model bonaire --tiles t.png", 2, " shades no tile: "},
-        {"room.strata --gpu-model bonaire --tiles t.jpg", 2, "written as .exr or .png, not as 't.jpg'"},
-        {"room.strata --gpu-model bonaire,navi21 --tiles t.png", 2, "--tiles shows one GPU, not 2"},
-        {"room.strata --gpu-model bonaire --tiles t.png --no-run", 2, "cannot be combined with"},
-        {"room.strata --gpu-model bonaire --tiles t.png --use lighting/brute_force", 2,
-         "lighting/brute_force has no shading modes; "},
-        {"room.strata --gpu-model bonaire --tiles nowhere/t.png", 2, "nowhere/t.png"},
+        {"pane.strata --gpu-model bonaire --tiles t.png", 2, "isa.no_shaded_tile", ""},
+        {"room.strata --gpu-model bonaire --tiles t.jpg", 2, "output.unknown_ending", "file=t.jpg"},
+        {"room.strata --gpu-model bonaire,navi21 --tiles t.png", 2, "isa.tiles_of_one_gpu", "gpus=2"},
+        {"room.strata --gpu-model bonaire --tiles t.png --no-run", 2, "options.excluded", "--no-run"},
+        {"room.strata --gpu-model bonaire --tiles t.png --use lighting/brute_force", 2, "technique.is_unable",
+         "technique=lighting/brute_force"},
+        {"room.strata --gpu-model bonaire --tiles nowhere/t.png", 2, "file.cannot_write", "file=nowhere/t.png"},
     };
     expect_refusals("isa", wrongs);
 }

@@ -18,6 +18,17 @@
 namespace strata {
 namespace {
 
+/// The id of an error and its values, as -v prints them last.
+std::pair<std::string, std::string> id_and_values(const Finished& failed) {
+    constexpr std::string_view prefix = "strata: ";
+    const std::string lines = failed.err.substr(0, failed.err.rfind('\n'));
+    const std::size_t begin = lines.rfind('\n') + 1;
+    if (lines.compare(begin, prefix.size(), prefix) != 0) return {};
+    const std::string line = lines.substr(begin + prefix.size());
+    const std::size_t colon = line.find(": ");
+    return {line.substr(0, colon), colon == line.npos ? "" : line.substr(colon + 2)};
+}
+
 /// A line of the shell after "cd" into the folder.
 Finished run_line(const std::string& line) {
     for (const char* old : {"stdout.txt", "stderr.txt"}) std::filesystem::remove(folder() / old);
@@ -91,11 +102,19 @@ int code_of(pid_t process) {
     return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
+void PrintTo(const Finished& finished, std::ostream* out) {
+    *out << "exit code " << finished.code << "\n" << finished.out << finished.err;
+}
+
+testing::Matcher<const Finished&> Refuses(int code, const std::string& id, const std::string& values) {
+    return testing::AllOf(testing::Field("exit code", &Finished::code, code),
+                          testing::ResultOf(id_and_values, testing::Pair(id, testing::HasSubstr(values))));
+}
+
 void expect_refusals(const std::string& verb, std::span<const Refusal> refusals) {
-    for (const auto& [arguments, code, sentence] : refusals) {
-        const Finished refused = strata(verb + " " + arguments);
-        EXPECT_EQ(refused.code, code) << arguments;
-        EXPECT_THAT(refused.err, testing::HasSubstr(sentence)) << arguments;
+    for (const auto& [arguments, code, id, values] : refusals) {
+        const Finished refused = strata("-v " + verb + " " + arguments);
+        EXPECT_THAT(refused, Refuses(code, id, values)) << arguments;
         EXPECT_EQ(refused.out, "") << arguments;
     }
 }

@@ -4,8 +4,11 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <iosfwd>
 #include <span>
 #include <string>
+
+#include <gmock/gmock.h>
 
 namespace strata {
 
@@ -13,6 +16,7 @@ struct Finished {
     int code = 0;
     std::string out, err;
 };
+void PrintTo(const Finished&, std::ostream*);
 
 /// strata with these arguments (a shell line), in a folder of its own that is emptied for each test.
 Finished strata(const std::string& arguments);
@@ -29,10 +33,14 @@ pid_t start(const std::string& program, const std::string& arguments, const std:
 /// What became of it, once it ended; 128 + signal where one ended it before main().
 int code_of(pid_t);
 
+/// Matches a program that was started with -v and ended with this exit code and this error, whose last line is then
+/// "strata: ID: name=value ...". The text is part of the values.
+testing::Matcher<const Finished&> Refuses(int code, const std::string& id, const std::string& values = "");
+
 struct Refusal {
     std::string arguments;
     int code = 0;
-    std::string sentence;  ///< on the error output, which is all that is printed
+    std::string id, values;  ///< of the error, which is all that is printed
 };
 void expect_refusals(const std::string& verb, std::span<const Refusal>);
 

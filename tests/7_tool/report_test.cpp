@@ -9,13 +9,16 @@
 #include <nlohmann/json.hpp>
 
 #include "captures/scenarios.h"
+#include "passes/frame_images.h"
 #include "passes/reference/difference.h"
+#include "passes/stage_input.h"
 #include "passes/transparency/judge.h"
 #include "replay/report/flicker.h"
 #include "replay/report/hard_cases.h"
 #include "replay/report/picture_error.h"
 #include "replay/report/pooled.h"
-#include "replay/report/table.h"
+#include "replay/tables/table.h"
+#include "tests/support/errors.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -27,7 +30,7 @@ using testing::Not;
 
 Measurement row(std::string name, double error, double ms, double bytes = 0) {
     Measurement measured{.technique = std::move(name)};
-    measured.accuracy.method = {{"rmse", "", error}};
+    measured.accuracy.technique_errors = {{"rmse", "", error}};
     measured.stage_ms.median = ms;
     measured.bytes_per_pixel = bytes;
     return measured;
@@ -107,32 +110,32 @@ TEST(Budgets, OfTimeAreKeptWithTheSpread) {
     EXPECT_EQ(best_within(rows, {&Standing::time, 1}), 1u);
 }
 
-const std::vector<Standing> four_methods = {{.error = 0, .time = 1},
-                                            {.error = .001, .time = 2.7, .spread = .1},
-                                            {.error = .004, .time = 1.8, .spread = .1},
-                                            {.error = .005, .time = 1.9, .spread = .1},
-                                            {.error = .02, .time = 1.1, .spread = .02},
-                                            {.time = 0}};  // not supported
+const std::vector<Standing> four_techniques = {{.error = 0, .time = 1},
+                                               {.error = .001, .time = 2.7, .spread = .1},
+                                               {.error = .004, .time = 1.8, .spread = .1},
+                                               {.error = .005, .time = 1.9, .spread = .1},
+                                               {.error = .02, .time = 1.1, .spread = .02},
+                                               {.time = 0}};  // not supported
 
 TEST(Answers, NameTheCheapestBelowTheErrorAndTheMostAccurateWithinTheTime) {
-    const Answer answer = find_answer(four_methods, 0, {.error = .01, .within = 2});
+    const Answer answer = find_answer(four_techniques, 0, {.error = .01, .within = 2});
     EXPECT_TRUE(answer.keeps_all);
     EXPECT_EQ(answer.cheapest, 2u);
     EXPECT_EQ(answer.most_accurate, 2u);
     EXPECT_EQ(answer.as_fast, std::vector<std::size_t>{3});
 }
 
-TEST(Answers, OfNoMethodThatKeepsBothAreThoseThatKeepEither) {
-    const Answer answer = find_answer(four_methods, 0, {.error = .002, .within = 1.5});
+TEST(Answers, OfNoTechniqueThatKeepsBothAreThoseThatKeepEither) {
+    const Answer answer = find_answer(four_techniques, 0, {.error = .002, .within = 1.5});
     EXPECT_FALSE(answer.keeps_all);
     EXPECT_EQ(answer.cheapest, 1u);
     EXPECT_EQ(answer.most_accurate, 4u);
-    EXPECT_EQ(find_answer(four_methods, 0, {.error = 1e-6, .within = .5}).cheapest, std::nullopt);
+    EXPECT_EQ(find_answer(four_techniques, 0, {.error = 1e-6, .within = .5}).cheapest, std::nullopt);
 }
 
 TEST(Answers, CountTheBaselineOnlyWhereThereIsNone) {
-    EXPECT_EQ(find_answer(four_methods, 0, {.error = .01}).cheapest, 2u);
-    EXPECT_EQ(find_answer(four_methods, std::nullopt, {.error = .01}).cheapest, 0u);
+    EXPECT_EQ(find_answer(four_techniques, 0, {.error = .01}).cheapest, 2u);
+    EXPECT_EQ(find_answer(four_techniques, std::nullopt, {.error = .01}).cheapest, 0u);
 }
 
 TEST(Answers, SayWhereASpreadIsTooLargeToTellRowsApart) {
@@ -155,17 +158,17 @@ TEST(Answers, NameTheBaselineAlsoWhereItIsWrong) {
 TEST(Answers, AreSentences) {
     const AnswerNames names{{"alpha", "b", "c", "d", "e", "f"}, "relative rmse", "alpha"};
     EXPECT_EQ(
-        answer_text(four_methods, 0, {.error = .01, .within = 2}, names),
+        answer_text(four_techniques, 0, {.error = .01, .within = 2}, names),
         "answer for relative rmse up to 0.01 within 2x of alpha: cheapest c (relative rmse 0.004, 1.80x), as fast within the "
         "spread d; most accurate c (relative rmse 0.004, 1.80x)\n"
         "the baseline alpha is not an answer; here it has relative rmse 0, 1.00x: exact, nothing that shows is out of order\n");
     const AnswerNames noted{names.rows, names.error, names.unit, "its time contains 2 ms"};
-    EXPECT_THAT(answer_text(four_methods, 0, {.error = .01}, noted), HasSubstr("out of order; its time contains 2 ms\n"));
-    EXPECT_EQ(
-        answer_text(four_methods, 0, {.error = 1e-6, .within = 1.5}, names),
-        "answer for relative rmse up to 1.0e-06 within 1.5x of alpha: no method; no method has so small an error; most accurate "
-        "e (relative rmse 0.02, 1.10x)\nthe baseline alpha is not an answer; here it has relative rmse 0, 1.00x: "
-        "exact, nothing that shows is out of order\n");
+    EXPECT_THAT(answer_text(four_techniques, 0, {.error = .01}, noted), HasSubstr("out of order; its time contains 2 ms\n"));
+    EXPECT_EQ(answer_text(four_techniques, 0, {.error = 1e-6, .within = 1.5}, names),
+              "answer for relative rmse up to 1.0e-06 within 1.5x of alpha: no technique; no technique has so small an error; "
+              "most accurate "
+              "e (relative rmse 0.02, 1.10x)\nthe baseline alpha is not an answer; here it has relative rmse 0, 1.00x: "
+              "exact, nothing that shows is out of order\n");
 }
 
 /// Zeros would be times.
@@ -196,7 +199,7 @@ TEST(StoppedReport, SaysNothingOfTimesThatWereNotMeasured) {
 TEST(Report, SaysHowFarATruthMadeOfRandomDirectionsIsExpectedToBeOff) {
     const auto session = scenario_session("cornell_box");
     const ReportRequest wanted{
-        .base = {.variant = {.extent_divisor = 4}}, .stage = Stage::indirect, .methods = {"ambient"}, .repeats = 1};
+        .base = {.variant = {.extent_divisor = 4}}, .stage = Stage::indirect, .techniques = {"ambient"}, .repeats = 1};
     const Report report = must(make_report(*session, wanted));
     ASSERT_EQ(report.truths.size(), 1u);
     const StandardError own = report.truths.front().own_error.value();
@@ -205,16 +208,16 @@ TEST(Report, SaysHowFarATruthMadeOfRandomDirectionsIsExpectedToBeOff) {
     EXPECT_EQ(json["truths"][0]["standard_error"]["relative_rmse"], own.relative);
     EXPECT_THAT(as_text(report), HasSubstr(fmt::format("; its own standard error: rmse {}, relative rmse {}\n",
                                                        short_number(own.rmse), short_number(own.relative))));
-    // Below a tenth of what the method errs, or errors would not be the method's.
+    // Below a tenth of what the technique errs, or errors would not be the technique's.
     EXPECT_LT(own.relative, .03);
-    EXPECT_LT(10 * own.rmse, report.rows.front().accuracy.method.front().value);
+    EXPECT_LT(10 * own.rmse, report.rows.front().accuracy.technique_errors.front().value);
 }
 
 TEST(Report, MeasuresSettingsAgainstTheTruthThatTheyApproximate) {
     const auto session = scenario_session("cornell_box");
     const ReportRequest wanted{.base = {.variant = {.extent_divisor = 8}},
                                .stage = Stage::indirect,
-                               .methods = {"ambient", "lpv map_size=16 bounces=2"},
+                               .techniques = {"ambient", "lpv map_size=16 bounces=2"},
                                .repeats = 1};
     const Report report = must(make_report(*session, wanted));
     ASSERT_EQ(report.truths.size(), 2u);
@@ -236,31 +239,31 @@ TEST(Report, MeasuresSettingsAgainstTheTruthThatTheyApproximate) {
 /// The truth takes the place of the stage's outputs: what is exact differs from it by float rounding, if at all.
 TEST(PictureErrors, AreThoseThatLaterStagesLeave) {
     const auto session = scenario_session("interpenetrating_panes");
-    ReportRequest wanted{.error_at = ErrorAt::picture, .methods = {"sorted_lists", "alpha_blend"}, .repeats = 1};
+    ReportRequest wanted{.error_at = ErrorAt::picture, .techniques = {"sorted_lists", "alpha_blend"}, .repeats = 1};
     const Report report = must(make_report(*session, wanted));
     ASSERT_EQ(report.rows.size(), 2u);
     EXPECT_EQ(report.rows[0].technique, "transparency/sorted_lists");
-    const std::vector<Figure>& exact = report.rows[0].accuracy.method;
+    const std::vector<Metric>& exact = report.rows[0].accuracy.technique_errors;
     EXPECT_EQ(exact.front().name, "display rmse");
-    for (const Figure& figure : exact) EXPECT_LT(figure.value, 1e-3) << figure.name;
-    EXPECT_GT(report.rows[1].accuracy.method.front().value, .01);
+    for (const Metric& metric : exact) EXPECT_LT(metric.value, 1e-3) << metric.name;
+    EXPECT_GT(report.rows[1].accuracy.technique_errors.front().value, .01);
     EXPECT_GT(*report.rows[1].accuracy.flip, .01);
-    EXPECT_GT(report.rows[1].accuracy.touched.front().value, report.rows[1].accuracy.method.front().value);
+    EXPECT_GT(report.rows[1].accuracy.touched.front().value, report.rows[1].accuracy.technique_errors.front().value);
     EXPECT_LT(report.rows[1].accuracy.touched_share, 1);
     EXPECT_EQ(nlohmann::json::parse(as_json(report))["error_at"], "picture");
     wanted.stage = Stage::combine;
-    wanted.methods = {};
-    EXPECT_THAT(make_report(*session, wanted).error().sentence, HasSubstr("makes the picture itself"));
+    wanted.techniques = {};
+    EXPECT_THAT(make_report(*session, wanted), FailsWith("report.stage_makes_picture", Field("stage", "combine")));
 }
 
 TEST(PictureErrors, OfPixelsThatRoundingLeavesOpenAreNotZeros) {
     const auto session = scenario_session("three_panes");
     ReferenceImage display(64, 36);
     display.undecided.assign(display.texels.size(), true);
-    Accuracy accuracy{.method = {{"rmse", "radiance", 0}}, .flip = 0};
+    Accuracy accuracy{.technique_errors = {{"rmse", "radiance", 0}}, .flip = 0};
     ASSERT_TRUE(judge_picture(*session, {}, {.display = display, .touched = display}, accuracy));
     EXPECT_THAT(accuracy.not_supported, HasSubstr("no pixel can be judged: rounding decides"));
-    EXPECT_TRUE(accuracy.method.empty());
+    EXPECT_TRUE(accuracy.technique_errors.empty());
     EXPECT_FALSE(accuracy.flip);
 }
 
@@ -277,7 +280,7 @@ TEST(Report, HasNoImplementationErrorWhereItsModelDecidesNothing) {
 TEST(Report, OfALargeFrameSaysHowManyTexelsWereComparedWithTheModel) {
     const Scenario* scenario = must(find_scenario("crossing_planes"));
     const auto session = session_of({scenario->build(0, {.width = 345, .height = 171, .samples = 4})});
-    const Report report = must(make_report(*session, {.stage = Stage::edges, .methods = {"bitwise"}, .repeats = 1}));
+    const Report report = must(make_report(*session, {.stage = Stage::edges, .techniques = {"bitwise"}, .repeats = 1}));
     const Accuracy& accuracy = report.rows.front().accuracy;
     EXPECT_EQ(accuracy.compared + accuracy.undecided, std::size_t{345 / 2} * (171 / 2));
     EXPECT_GT(accuracy.compared, 0u);
@@ -285,7 +288,7 @@ TEST(Report, OfALargeFrameSaysHowManyTexelsWereComparedWithTheModel) {
 }
 
 TEST(HardCaseReport, HasTheCasesThatWereCompleteWhenItWasStopped) {
-    const std::vector<Variant> rows = must(variants({.methods = {"alpha_blend"}}));
+    const std::vector<Variant> rows = must(variants({.techniques = {"alpha_blend"}}));
     std::stop_source source;
     std::size_t cases = 0;
     const auto stop_in_the_third = [&](std::string_view, double) {
@@ -367,14 +370,14 @@ TEST(TransparencyJudge, CountsRelativeErrorsOfTheWorstChannel) {
     got.at(0, 0).x += .5;   // relative to .99 + .01
     got.at(1, 0).y -= .05;  // over 2 %, not over 10 %
     const Frame frame;
-    std::map<std::string, double> figures;
-    for (const Figure& figure : transparency_judge({{"color", got}}, {{"color", truth}}, {frame, {}}))
-        figures[figure.name] = figure.value;
-    EXPECT_DOUBLE_EQ(figures["over 2 %"], 2);
-    EXPECT_DOUBLE_EQ(figures["over 10 %"], 1);
-    EXPECT_NEAR(figures["P99"], .05, 1e-12);
-    EXPECT_EQ(figures["P95"], 0);
-    EXPECT_NEAR(figures["worst"], .5, 1e-12);
+    std::map<std::string, double> metrics;
+    for (const Metric& metric : transparency_judge({{"color", got}}, {{"color", truth}}, {frame, {}}))
+        metrics[metric.name] = metric.value;
+    EXPECT_DOUBLE_EQ(metrics["over 2 %"], 2);
+    EXPECT_DOUBLE_EQ(metrics["over 10 %"], 1);
+    EXPECT_NEAR(metrics["P99"], .05, 1e-12);
+    EXPECT_EQ(metrics["P95"], 0);
+    EXPECT_NEAR(metrics["worst"], .5, 1e-12);
 }
 
 TEST(Flicker, IsHowMuchAnErrorChangesNotHowLargeItIs) {
@@ -395,7 +398,7 @@ TEST(Flicker, WalksATwentiethOfTheWayToWhatIsTransparent) {
     EXPECT_FALSE(default_dolly(scenario_frames("empty").front()));
 }
 
-/// Three cards of alpha .99 a centimetre apart: turned to one side, another of them is drawn last.
+/// Three cards of alpha .99 a centimeter apart: turned to one side, another of them is drawn last.
 TEST(Flicker, ShowsThatObjectOrderPopsAndIsNothingForWhatIsExact) {
     const auto session = scenario_session("three_cards");
     const ReportRequest wanted{.flicker = Walk{.frames = 7, .dolly = 0, .pan = 9}};
@@ -469,7 +472,7 @@ TEST(Pool, DoesNotRankWhatHasAnotherTruth) {
 
 TEST(Pool, PrefersTheRelativeErrorBecauseFramesDifferInBrightness) {
     Measurement both = row("transparency/one", 3, 1);
-    both.accuracy.method.push_back({"relative rmse", "", .25});
+    both.accuracy.technique_errors.push_back({"relative rmse", "", .25});
     const Pool pool = pooled(std::vector{report_on("a", {both}), report_on("b", {both})});
     EXPECT_EQ(pool.error, "relative rmse");
     EXPECT_DOUBLE_EQ(pool.rows[0].error, .25);
@@ -497,8 +500,8 @@ TEST(Table, FitsATerminalOf120ColumnsHoweverLongTheSettings) {
         Measurement measured = row("transparency/some_technique", -1.234567e-5 * i, 1234.5, 123456);
         measured.settings = i % 2 == 0 ? "" : "a_long_key=with_its_value another=choice and=more and_more=0.0001";
         for (const char* name : {"bias", "P99", "over 10 %", "more"})
-            measured.accuracy.method.push_back({name, "radiance", -1e-9});
-        measured.accuracy.method.push_back({"a detail", "", 1, true});
+            measured.accuracy.technique_errors.push_back({name, "radiance", -1e-9});
+        measured.accuracy.technique_errors.push_back({"a detail", "", 1, true});
         measured.accuracy.flip = .123456;
         measured.flicker = measured.coverage_flicker = 1e-9;
         measured.time = Spread{.median = 123.456, .mad = 10};

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "replay/spectra/spectra.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/session.h"
@@ -17,7 +18,7 @@ using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
 
-void record_room() { ASSERT_EQ(strata("record lights_room -o room.strata --size 64x36").code, 0); }
+void record_lights_room() { ASSERT_EQ(strata("record lights_room -o room.strata --size 64x36").code, 0); }
 
 std::string technique() { return std::string(must(technique_of_spectra({}))->name); }
 
@@ -29,7 +30,7 @@ std::string options_of(const json& report) {
 }
 
 TEST(SpectraVerb, FindsModesThatServeEveryTileForNoMoreThanTheFullOne) {
-    record_room();
+    record_lights_room();
     const Finished made = strata("spectra room.strata --modes 3 --json --validation");
     ASSERT_EQ(made.code, 0) << made.err;
     const json report = json::parse(made.out);
@@ -54,7 +55,7 @@ TEST(SpectraVerb, FindsModesThatServeEveryTileForNoMoreThanTheFullOne) {
 }
 
 TEST(SpectraVerb, TheModesItFindsReplayToTheSameImage) {
-    record_room();
+    record_lights_room();
     const json report = json::parse(strata("spectra room.strata --modes 3 --json").out);
     const std::string full = "--use " + technique() + " --set modes=1 --set mode_0=65535 ";
     ASSERT_EQ(strata("replay room.strata -o a " + full).code, 0);
@@ -70,7 +71,7 @@ TEST(SpectraVerb, TheModesItFindsReplayToTheSameImage) {
 }
 
 TEST(ExhaustiveSpectraVerb, TimesModesOnSeveralCapturesAndWritesTheJsonBesideTheText) {
-    record_room();
+    record_lights_room();
     ASSERT_EQ(strata("record lights_room -o other.strata --size 48x27 --frames 2").code, 0);
     const Finished made = strata("spectra room.strata other.strata --cost measured --repeats 2 --aim worst -o spectra.json");
     ASSERT_EQ(made.code, 0) << made.err;
@@ -86,24 +87,24 @@ TEST(ExhaustiveSpectraVerb, TimesModesOnSeveralCapturesAndWritesTheJsonBesideThe
 }
 
 TEST(SpectraVerb, WrongRequestsEndWithASentence) {
-    record_room();
+    record_lights_room();
     ASSERT_EQ(strata("record one_pane -o pane.strata").code, 0);
     std::string other;
     for (const Technique* candidate : techniques_of(must(technique_of_spectra({}))->stage))
         if (candidate->name != technique() && candidate->tables.empty()) other = candidate->name;
     const Refusal wrongs[] = {
-        {"", 2, "captures"},
-        {"nowhere.strata", 3, "nowhere.strata"},
-        {"room.strata --modes 0", 2, "--modes"},
-        {"room.strata --modes 17", 2, "--modes"},
-        {"room.strata --cost weight", 2, "not 'weight'; did you mean weights?"},
-        {"room.strata --aim best", 2, "--aim"},
-        {"room.strata --dispatch -1", 2, "--dispatch"},
-        {"room.strata --repeats 0", 2, "--repeats"},
-        {"room.strata --frames 3", 2, "there is no frame 3"},
-        {"room.strata --use " + other, 2, other + " makes no feature spectra; "},
-        {"room.strata --set colour=1", 2, "has a parameter"},
-        {"pane.strata", 2, "no frame has a feature spectrum: "},
+        {"", 2, "options.missing", "option=captures"},
+        {"nowhere.strata", 3, "file.cannot_open", "file=nowhere.strata"},
+        {"room.strata --modes 0", 2, "options.out_of_range", "value=0 option=--modes"},
+        {"room.strata --modes 17", 2, "options.out_of_range", "low=1 high=16 value=17 option=--modes"},
+        {"room.strata --cost weight", 2, "options.not_a_choice", "value=weight suggestion=\"; did you mean weights?\""},
+        {"room.strata --aim best", 2, "options.not_a_choice", "option=--aim"},
+        {"room.strata --dispatch -1", 2, "options.out_of_range", "option=--dispatch"},
+        {"room.strata --repeats 0", 2, "options.out_of_range", "option=--repeats"},
+        {"room.strata --frames 3", 2, "capture.no_frame", "frame=3 frames=1"},
+        {"room.strata --use " + other, 2, "technique.is_unable", "technique=" + other},
+        {"room.strata --set colr=1", 2, "settings.unknown", "setting=colr"},
+        {"pane.strata", 2, "spectra.no_frame", ""},
     };
     expect_refusals("spectra", wrongs);
 }

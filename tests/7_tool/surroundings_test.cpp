@@ -25,11 +25,11 @@ struct Writing {
 constexpr Writing writings[] = {
     {"record three_panes -o", "made.strata"},
     {"replay sound.strata --outputs color -o", "out"},
-    {"report sound.strata --repeats 1 --methods weighted -o", "report.txt"},
+    {"report sound.strata --repeats 1 --techniques weighted -o", "report.txt"},
     {"bench voxel sound.strata --repeats 1 --only wrap -o", "bench.json"},
     {"bench device sound.strata --repeats 1 -o", "device.json"},
     {"diff sound.strata --use transparency/weighted --limit 1000 --junit", "junit.xml"},
-    {"probe sound.strata --at 8,4 --methods sorted_lists --depths 512 -o", "probed"},
+    {"probe sound.strata --at 8,4 --techniques sorted_lists --depths 512 -o", "probed"},
     {"export sound.strata --deep --transmittance mean -o", "deep.exr"},
     {"export sound.strata --gltf -o", "scene.glb"},
     {"export sound.strata --json -o", "frame.json"},
@@ -57,19 +57,20 @@ TEST(Output, ThatCannotBeWrittenIsAUsageErrorWithTheSystemsWords) {
         EXPECT_THAT(failed.err, testing::AllOf(HasSubstr("sound.strata"), HasSubstr("Not a directory"))) << below_a_file;
     }
     std::filesystem::create_directory(folder() / "made.strata");
-    EXPECT_THAT(strata("record three_panes -o made.strata").err, HasSubstr("made.strata: Is a directory"));
-    EXPECT_THAT(strata("replay sound.strata -o sound.strata").err, HasSubstr("cannot make the folder sound.strata"));
+    EXPECT_THAT(strata("-v record three_panes -o made.strata"),
+                Refuses(2, "file.cannot_write", "file=made.strata reason=\"Is a directory\""));
+    EXPECT_THAT(strata("-v replay sound.strata -o sound.strata"), Refuses(2, "file.cannot_make_folder", "folder=sound.strata"));
     EXPECT_EQ(files_made(), 0u);
 }
 
 /// What was measured for hours would be lost. A folder that the verb itself makes may be missing.
 TEST(Output, ThatCannotBeWrittenIsRefusedBeforeAnythingIsMeasured) {
     write_sound_capture();
-    for (const char* command : {"report sound.strata --methods weighted -o", "bench voxel sound.strata --only splat -o",
+    for (const char* command : {"report sound.strata --techniques weighted -o", "bench voxel sound.strata --only splat -o",
                                 "spectra sound.strata -o", "diff sound.strata --use transparency/weighted --junit"}) {
-        const Finished refused = strata(fmt::format("{} nowhere/made", command));
-        EXPECT_EQ(refused.code, 2) << command;
-        EXPECT_EQ(refused.err, "strata: cannot write nowhere/made: No such file or directory\n") << command;
+        const Finished refused = strata(fmt::format("-v {} nowhere/made", command));
+        EXPECT_THAT(refused, Refuses(2, "file.cannot_write", "file=nowhere/made reason=\"No such file or directory\""))
+            << command;
         EXPECT_EQ(refused.out, "") << command;
     }
     EXPECT_EQ(strata("diff sound.strata sound.strata --frames 0 -o new/folder --junit new/folder/junit.xml").code, 0);
@@ -89,7 +90,7 @@ constexpr Writing inputs_as_outputs[] = {
     {"isa sound.strata --tiles link.png", "link.png"},
     {"import sound.strata -o link.strata", "link.strata"},
     {"replay sound.strata --frames 0 --outputs color -o out", "out/sound.f0000.exr"},
-    {"probe sound.strata --at 8,4 --methods sorted_lists --depths 16 -o link", "link.csv"},
+    {"probe sound.strata --at 8,4 --techniques sorted_lists --depths 16 -o link", "link.csv"},
     {"inspect sound.strata --size 400x300 --script shot.script", "link.png"},
 };
 
@@ -98,9 +99,7 @@ TEST(Output, ThatIsAnInputIsRefusedByEveryVerbAlsoThroughLinks) {
     std::ofstream(folder() / "shot.script") << "shot link.png\n";
     std::filesystem::create_directory(folder() / "out");
     const auto expect_kept = [](const std::string& command) {
-        const Finished refused = strata(command);
-        EXPECT_EQ(refused.code, 2) << command << refused.err;
-        EXPECT_THAT(refused.err, HasSubstr("it is the input sound.strata")) << command;
+        EXPECT_THAT(strata("-v " + command), Refuses(2, "file.is_input", "input=sound.strata")) << command;
         EXPECT_EQ(read_file(folder() / "sound.strata"), sound_capture()) << command;
     };
     for (const auto& [command, output] : inputs_as_outputs) {
@@ -149,13 +148,11 @@ TEST(Device, WithoutOneEveryVerbThatNeedsItSaysSoAndTheOthersGoOn) {
 TEST(Device, ThatLacksAFeatureIsNamedWithIt) {
     write_sound_capture();
     for (const char* feature : {"dynamicRendering", "scalarBlockLayout", "independentBlend", "timelineSemaphore"}) {
-        const Finished failed = strata(fmt::format("replay sound.strata --without {}", feature));
-        EXPECT_EQ(failed.code, 4) << feature;
-        EXPECT_THAT(failed.err, HasSubstr(fmt::format("lacks the feature {}", feature)));
+        const Finished failed = strata(fmt::format("-v replay sound.strata --without {}", feature));
+        EXPECT_THAT(failed, Refuses(4, "device.none_can_replay", fmt::format("the feature {}", feature)));
     }
-    const Finished unknown = strata("replay sound.strata --without independantBlend");
-    EXPECT_EQ(unknown.code, 2);
-    EXPECT_THAT(unknown.err, HasSubstr("did you mean independentBlend?"));
+    EXPECT_THAT(strata("-v replay sound.strata --without independantBlend"),
+                Refuses(2, "device.unknown_feature", "suggestion=\"; did you mean independentBlend?\""));
     EXPECT_EQ(files_made(), 0u);
 }
 
@@ -207,9 +204,8 @@ TEST(Memory, OfFilesIsBoundedByABudget) {
     for (const char* verb :
          {"info sound.strata", "validate sound.strata", "replay sound.strata", "export sound.strata --json -o sound.json",
           "import scene.gltf -o scene.strata", "diff black.png black.png"}) {
-        const Finished refused = strata(fmt::format("{} --memory-budget 300", verb));
-        EXPECT_EQ(refused.code, 4) << verb << refused.err;
-        EXPECT_THAT(refused.err, HasSubstr("the memory budget is 300 bytes")) << verb;
+        EXPECT_THAT(strata(fmt::format("-v {} --memory-budget 300", verb)), Refuses(4, "memory.budget", "budget=\"300 bytes\""))
+            << verb;
         EXPECT_EQ(strata(fmt::format("{} --memory-budget 256MiB", verb)).code, 0) << verb;
     }
     EXPECT_EQ(strata("import scene.gltf -o scene.strata --budget 300").code, 4);

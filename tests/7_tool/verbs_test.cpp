@@ -9,7 +9,10 @@
 
 #include "capture_format/reader.h"
 #include "passes/frame_images.h"
+#include "passes/graph/graph.h"
 #include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "tests/1_capture/temporary_file.h"
 #include "tests/7_tool/file_verbs.h"
 #include "tests/7_tool/forged_captures.h"
@@ -33,7 +36,7 @@ TEST(Tool, EveryVerbHasHelpInBothForms) {
         const Finished help = strata(std::string("help ") + verb), flag = strata(std::string(verb) + " --help");
         EXPECT_EQ(help.code, 0) << verb;
         EXPECT_EQ(help.out, flag.out) << verb;
-        EXPECT_THAT(help.out, HasSubstr("--help")) << verb;
+        EXPECT_THAT(help.out, AllOf(HasSubstr("--help"), HasSubstr("-v,--verbose"))) << verb;
     }
 }
 
@@ -44,7 +47,7 @@ TEST(Tool, EveryVerbThatPrintsResultsPrintsThemAsJsonToo) {
           "accept sound.strata --dry-run", "graph sound.strata", "report sound.strata --repeats 1 --sweep pool=2",
           "bench voxel sound.strata --repeats 1 --only wrap", "bench device sound.strata --repeats 1",
           "spectra sound.strata --modes 3", "diff sound.strata sound.strata",
-          "probe sound.strata --at 8,4 --methods sorted_lists -o probed"}) {
+          "probe sound.strata --at 8,4 --techniques sorted_lists -o probed"}) {
         const Finished printed = strata(fmt::format("{} --json", command));
         ASSERT_EQ(printed.code, 0) << command << printed.err;
         const json made = json::parse(printed.out);
@@ -61,9 +64,7 @@ TEST(Tool, GpusAreListedAsTextAndAsJson) {
         EXPECT_THAT(text, HasSubstr(fmt::format("{}  {}  (", gpu["index"].get<int>(), gpu["name"].get<std::string>())));
         EXPECT_EQ(gpu["can_replay"].get<bool>(), gpu["lacks"].is_null());
     }
-    const Finished alone = strata("--json");
-    EXPECT_EQ(alone.code, 2);
-    EXPECT_THAT(alone.err, HasSubstr("--list-gpus"));
+    EXPECT_THAT(strata("-v --json"), Refuses(2, "options.needs", "option=--json other=--list-gpus"));
 }
 
 TEST(Tool, WithoutAVerbItListsThem) {
@@ -73,21 +74,20 @@ TEST(Tool, WithoutAVerbItListsThem) {
 }
 
 TEST(Tool, AnUnknownVerbOrOptionIsAUsageErrorThatNamesTheNearestAndNothingElse) {
-    const std::pair<std::string, const char*> wrongs[] = {
-        {"reply", "there is no verb 'reply'; did you mean replay?"},
-        {"help reply", "there is no verb 'reply'; did you mean replay?"},
-        {"help nosuch", "there is no verb 'nosuch'"},
-        {"--list-gpu", "strata has no option --list-gpu; did you mean --list-gpus?"},
+    const Refusal wrongs[] = {
+        {"reply", 2, "options.unknown_verb", "verb=reply suggestion=\"; did you mean replay?\""},
+        {"help reply", 2, "options.unknown_verb", "verb=reply suggestion=\"; did you mean replay?\""},
+        {"help nosuch", 2, "options.unknown_verb", "verb=nosuch suggestion=\"\""},
+        {"--list-gpu", 2, "options.unknown", "verb=strata option=--list-gpu suggestion=\"; did you mean --list-gpus?\""},
     };
-    for (const auto& [wrong, sentence] : wrongs) {
-        const Finished refused = strata(wrong);
-        EXPECT_EQ(refused.code, 2) << wrong;
-        EXPECT_EQ(refused.err, fmt::format("strata: {}\n", sentence));
-    }
+    expect_refusals("", wrongs);
     for (const std::string verb : verb_names()) {
-        const Finished refused = strata(verb + " --halp");
-        EXPECT_EQ(refused.code, 2) << verb;
-        EXPECT_EQ(refused.err, fmt::format("strata: strata {} has no option --halp; did you mean --help?\n", verb));
+        const Finished refused = strata(verb + " -v --halp");
+        EXPECT_THAT(refused,
+                    Refuses(2, "options.unknown",
+                            fmt::format("verb=\"strata {}\" option=--halp suggestion=\"; did you mean --help?\"", verb)));
+        EXPECT_EQ(std::ranges::count(refused.err, '\n'), 2) << "the sentence and its id: " << refused.err;
+        EXPECT_EQ(std::ranges::count(strata(verb + " --halp").err, '\n'), 1) << verb;
     }
 }
 
@@ -132,37 +132,43 @@ TEST(List, ShowsTheImagesAndViewsThatOutputsTakes) {
     for (std::string line; std::getline(lines, line);)
         if (line != "depth") all += (all.empty() ? "" : ",") + line;  // at 4 samples its layers are asked for
     // Not every image comes into being in this frame, which is exit 2, but each is known.
-    EXPECT_THAT(strata("replay panes.strata --outputs " + all).err,
-                AllOf(HasSubstr("is left out"), Not(HasSubstr("has no image"))));
-    EXPECT_THAT(strata("replay panes.strata --outputs colour").err, HasSubstr("has no image"));
+    EXPECT_THAT(strata("-v replay panes.strata --outputs " + all), Refuses(2, "frame.no_output", "is left out"));
+    EXPECT_THAT(strata("-v replay panes.strata --outputs colr"), Refuses(2, "frame.unknown_image", "image=colr"));
     EXPECT_EQ(strata("list --views --images").code, 2);
+}
+
+TEST(List, FindsAndShowsWhatTheFieldCallsThem) {
+    EXPECT_EQ(strata("list oit").out, strata("list transparency").out);
+    EXPECT_EQ(strata("list wboit").out, strata("list transparency/weighted").out);
+    EXPECT_THAT(strata("list").out, AllOf(HasSubstr("transparency (oit): "), HasSubstr(" (wboit). ")));
+    EXPECT_EQ(json::parse(strata("list wboit --json").out)["techniques"][0]["aliases"], json({"wboit"}));
+    record_panes();
+    const Finished report = strata("report panes.strata --stage oit --techniques 'wboit weight=w9' --use ao/none --repeats 1");
+    EXPECT_EQ(report.code, 0) << report.err;
+    EXPECT_THAT(report.out, HasSubstr("weighted weight=w9"));
+    EXPECT_EQ(strata("replay panes.strata --use wboit --set avboit:slices=64").code, 2) << "one technique of a stage";
 }
 
 TEST(List, AMisspelledTechniqueGetsASuggestion) {
     std::string typed(techniques_of(Stage::transparency).back()->name);
     std::swap(typed[typed.size() - 2], typed[typed.size() - 3]);
-    const Finished failed = strata("list " + typed);
-    EXPECT_EQ(failed.code, 2);
-    EXPECT_THAT(failed.err, HasSubstr("did you mean " + std::string(techniques_of(Stage::transparency).back()->name)));
+    EXPECT_THAT(strata("-v list " + typed),
+                Refuses(2, "list.unknown", "did you mean " + std::string(techniques_of(Stage::transparency).back()->name)));
 }
 
 TEST(Record, AnUnknownScenarioIsAUsageError) {
-    const Finished failed = strata("record three_pains -o x.strata");
-    EXPECT_EQ(failed.code, 2);
-    EXPECT_THAT(failed.err, HasSubstr("did you mean three_panes"));
+    EXPECT_THAT(strata("-v record three_pains -o x.strata"), Refuses(2, "scenario.unknown", "did you mean three_panes"));
     EXPECT_FALSE(std::filesystem::exists(folder() / "x.strata"));
 }
 
 TEST(Record, ABudgetThatIsTooSmallIsAUsageErrorThatNamesTheSmallestThatIsEnough) {
     // At 160 x 90 the thumbnail of one pane is larger than its frame. No scenario has a frame larger than its first.
     for (const std::string scenario : {"smoke_grenade --size 16x9 --frames 3", "one_pane --size 160x90"}) {
-        const Finished refused = strata(fmt::format("record {} -o x.strata --budget 1KiB", scenario));
-        EXPECT_EQ(refused.code, 2) << scenario;
-        EXPECT_THAT(refused.err,
-                    testing::MatchesRegex("strata: --budget 1024 bytes is too small: (frame [0-2]|the thumbnail) takes "
-                                          "[0-9]+ bytes; pass --budget [0-9]+ or more\n"));
+        const Finished refused = strata(fmt::format("-v record {} -o x.strata --budget 1KiB", scenario));
+        EXPECT_THAT(refused, Refuses(2, "record.budget_too_small", "budget=1024 part=")) << scenario;
+        EXPECT_THAT(refused.err, testing::ContainsRegex(" part=\"(frame [0-2]|the thumbnail)\" bytes=[0-9]+\n"));
         EXPECT_FALSE(std::filesystem::exists(folder() / "x.strata"));
-        const std::uint64_t enough = std::strtoull(refused.err.c_str() + refused.err.find("pass --budget ") + 14, nullptr, 10);
+        const std::uint64_t enough = std::strtoull(refused.err.c_str() + refused.err.find(" bytes=") + 7, nullptr, 10);
         EXPECT_EQ(strata(fmt::format("record {} -o x.strata --budget {}", scenario, enough - 1)).code, 2) << scenario;
         const Finished recorded = strata(fmt::format("record {} -o x.strata --budget {}", scenario, enough));
         EXPECT_EQ(recorded.code, 0) << recorded.err;
@@ -231,7 +237,7 @@ TEST(Replay, EqualRunsWriteEqualFiles) {
 
 TEST(Replay, RepeatsAreBitIdentical) {
     record_panes();
-    const Finished repeated = strata("replay panes.strata --repeat 3 -o out");
+    const Finished repeated = strata("replay panes.strata --repeats 3 -o out");
     EXPECT_EQ(repeated.code, 0);
     EXPECT_THAT(repeated.err, HasSubstr("bit for bit"));
 }
@@ -272,19 +278,18 @@ TEST(Replay, WhatWasLeftOutIsNotCountedInsteadOfZero) {
     const json partly = frame_of(strata(use + until + " --json"));
     EXPECT_FALSE(partly["counters"].contains(lists));
     EXPECT_EQ(partly["not_counted"], json{lists});
-    // With its acts a run has every image, so nothing is left out.
+    // With its passes a run has every image, so nothing is left out.
     EXPECT_EQ(frame_of(strata(use + view + " --json"))["counters"][lists], whole["counters"][lists]);
 }
 
 TEST(Replay, WarnsOfWhatATechniqueCannotDoAndFailsWhereItIsStrict) {
     ASSERT_EQ(strata("record additive_sparks -o sparks.strata --size 32x24").code, 0);
     const std::string weighted = "transparency/weighted", use = "replay sparks.strata --use " + weighted;
-    const Finished warned = strata(use + " --json"), strict = strata(use + " --strict");
+    const Finished warned = strata(use + " --json"), strict = strata(use + " --strict -v");
     EXPECT_EQ(warned.code, 0) << warned.err;
     EXPECT_THAT(warned.err, HasSubstr(weighted + " cannot do additive ("));
     EXPECT_THAT(std::string(json::parse(warned.out)["frames"][0]["not_supported"][weighted]), HasSubstr("additive ("));
-    EXPECT_EQ(strict.code, 1);
-    EXPECT_THAT(strict.err, HasSubstr(weighted + " cannot do additive ("));
+    EXPECT_THAT(strict, Refuses(1, "replay.not_supported", "technique=" + weighted + " feature=\"additive ("));
     const Finished able = strata("replay sparks.strata --strict --json --use transparency/sorted_lists");
     EXPECT_EQ(able.code, 0) << able.err;
     EXPECT_FALSE(json::parse(able.out)["frames"][0].contains("not_supported"));
@@ -292,7 +297,7 @@ TEST(Replay, WarnsOfWhatATechniqueCannotDoAndFailsWhereItIsStrict) {
 
 TEST(Replay, WrongRequestsAreUsageErrorsWithASentence) {
     record_panes();
-    for (const char* wrong : {"--frames 9", "--frames a", "--use nothing/here", "--set colour=1", "--outputs pictures",
+    for (const char* wrong : {"--frames 9", "--frames a", "--use nothing/here", "--set colr=1", "--outputs pictures",
                               "--until nowhere", "--force rainbows", "--samples 3", "--gpu NoSuchDevice"}) {
         const Finished failed = strata(std::string("replay panes.strata ") + wrong);
         EXPECT_EQ(failed.code, 2) << wrong;
@@ -315,7 +320,7 @@ TEST(Report, AnExactTechniqueStandsInForTheTruthOfALargeFrame) {
     const json report = json::parse(made.out);
     EXPECT_THAT(report["truth"].get<std::string>(), HasSubstr("stands in"));
     EXPECT_THAT(report["truth"].get<std::string>(), HasSubstr("1/2 extent"));
-    for (const json& row : report["rows"]) EXPECT_TRUE(row.contains("method_error") || row.contains("not_supported")) << row;
+    for (const json& row : report["rows"]) EXPECT_TRUE(row.contains("technique_error") || row.contains("not_supported")) << row;
 }
 
 TEST(Report, JsonCsvAndTextNameEveryTechniqueOfTheStage) {
@@ -325,9 +330,9 @@ TEST(Report, JsonCsvAndTextNameEveryTechniqueOfTheStage) {
     const json report = json::parse(made.out);
     EXPECT_EQ(report["schema"], "strata.report");
     std::size_t rows = 0;
-    for (const Technique* technique : techniques_of(Stage::transparency)) rows += 1 + technique->points.size();
+    for (const Technique* technique : techniques_of(Stage::transparency)) rows += 1 + technique->variants.size();
     EXPECT_EQ(report["rows"].size(), rows);
-    for (const json& row : report["rows"]) EXPECT_EQ(row["method_error"].back()["metric"], "FLIP") << row;
+    for (const json& row : report["rows"]) EXPECT_EQ(row["technique_error"].back()["metric"], "FLIP") << row;
     const Finished text = strata("report panes.strata --repeats 1 --sweep pool=2"),
                    csv = strata("report panes.strata --repeats 1 --sweep pool=2 --csv");
     for (const Technique* technique : techniques_of(Stage::transparency)) {
@@ -357,10 +362,10 @@ TEST(Report, ASweepReplacesThePointsAndTimesAreMultiplesOfTheUnits) {
     EXPECT_EQ(report["best_within"].size(), 6u);
 }
 
-TEST(Report, AnswersWhichMethodKeepsAnErrorAndATime) {
+TEST(Report, AnswersWhichTechniqueKeepsAnErrorAndATime) {
     record_panes();
     const std::string verb =
-        "report panes.strata --repeats 3 --methods 'sorted_lists,weighted weight=w9' --error 1% --within 1000x";
+        "report panes.strata --repeats 3 --techniques 'sorted_lists,weighted weight=w9' --error 1% --within 1000x";
     const Finished made = strata(verb + " --json");
     ASSERT_EQ(made.code, 0) << made.err;
     const json report = json::parse(made.out);
@@ -373,8 +378,8 @@ TEST(Report, AnswersWhichMethodKeepsAnErrorAndATime) {
     const Finished defaults = strata("report panes.strata --repeats 1 --defaults --csv");
     EXPECT_EQ(std::size_t(std::ranges::count(defaults.out, '\n')), 1 + techniques_of(Stage::transparency).size());
     for (const char* wrong :
-         {"--methods nothing", "--methods 'weighted weight=w0'", "--methods lighting/tiled", "--error nan", "--error 0",
-          "--methods 'weighted weight=w7 weight=w8'", "--within -2x", "--within 2y", "--defaults --methods weighted"})
+         {"--techniques nothing", "--techniques 'weighted weight=w0'", "--techniques lighting/tiled", "--error nan", "--error 0",
+          "--techniques 'weighted weight=w7 weight=w8'", "--within -2x", "--within 2y", "--defaults --techniques weighted"})
         EXPECT_EQ(strata(std::string("report panes.strata ") + wrong).code, 2) << wrong;
 }
 
@@ -384,7 +389,7 @@ TEST(Report, FlickerIsNothingForWhatIsExactWhereverTheEyeGoes) {
     ASSERT_EQ(made.code, 0) << made.err;
     const json report = json::parse(made.out);
     EXPECT_EQ(report["flicker"]["frames"], 3);
-    EXPECT_GT(report["flicker"]["dolly_metres"], .05);
+    EXPECT_GT(report["flicker"]["dolly_meters"], .05);
     double least = 1, most = 0;
     for (const json& row : report["rows"]) {
         least = std::min(least, row["flicker"].get<double>());
@@ -430,7 +435,7 @@ TEST(Report, OfSeveralCapturesIsEachOnesAndAPooledOne) {
     EXPECT_EQ(pooled, reports["pooled"]["rows"].size());
 }
 
-TEST(Probe, ListsThePixelsFragmentsAndWritesWhatEveryMethodLetsThrough) {
+TEST(Probe, ListsThePixelsFragmentsAndWritesWhatEveryTechniqueLetsThrough) {
     record_panes();
     const Finished made = strata("probe panes.strata --at 32,18 --depths 64 -o deep/er --validation");
     ASSERT_EQ(made.code, 0) << made.err;
@@ -448,24 +453,20 @@ TEST(Probe, ListsThePixelsFragmentsAndWritesWhatEveryMethodLetsThrough) {
 
 TEST(Probe, WrongRequestsAreUsageErrorsWithASentence) {
     record_panes();
-    const std::string method(techniques_of(Stage::transparency).front()->name);
-    const std::pair<std::string, const char*> wrongs[] = {
-        {"--at 64,0", "there is no pixel (64, 0)"},
-        {"--at 0,0", "the nearest pixel with some is ("},
-        {"--at 32", "takes a pixel like"},
-        {"--at 32,18 --sample 1", "there is no sample 1"},
-        {"--at 32,18 --frame 1", "there is no frame 1"},
-        {"--at 32,18 --methods " + method.substr(0, method.size() - 1), "did you mean"},
-        {"--at 32,18 --methods '" + method + " nothing=1'", "nothing"},
-        {"--at 32,18 --depths 1", "2 to"},
-        {"--at 32,18 --from 9", "there is nothing to probe"},
-        {"--at 32,18 --axis square", "--axis"},
+    const std::string technique(techniques_of(Stage::transparency).front()->name);
+    const Refusal wrongs[] = {
+        {"--at 64,0", 2, "frame.no_pixel", "x=64 y=0"},
+        {"--at 0,0", 2, "probe.no_fragment", "x=0 y=0 nearest_x="},
+        {"--at 32", 2, "options.malformed", "option=--at value=32"},
+        {"--at 32,18 --sample 1", 2, "frame.no_sample", "sample=1 samples=1"},
+        {"--at 32,18 --frame 1", 2, "capture.no_frame", "frame=1 frames=1"},
+        {"--at 32,18 --techniques " + technique.substr(0, technique.size() - 1), 2, "technique.unknown", "did you mean"},
+        {"--at 32,18 --techniques '" + technique + " nothing=1'", 2, "settings.unknown", "setting=nothing"},
+        {"--at 32,18 --depths 1", 2, "options.out_of_range", "low=2 high=8192 value=1 option=--depths"},
+        {"--at 32,18 --from 9", 2, "probe.empty_range", "from=9"},
+        {"--at 32,18 --axis square", 2, "options.not_a_choice", "value=square"},
     };
-    for (const auto& [wrong, sentence] : wrongs) {
-        const Finished failed = strata("probe panes.strata " + wrong);
-        EXPECT_EQ(failed.code, 2) << wrong;
-        EXPECT_THAT(failed.err, HasSubstr(sentence)) << wrong;
-    }
+    expect_refusals("probe panes.strata", wrongs);
 }
 
 TEST(Import, AnAnimationBecomesFrames) {

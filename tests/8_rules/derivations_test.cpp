@@ -30,7 +30,7 @@ constexpr std::array plain_values = {
 /// Files that models, truths and judges share, beside those whose names say it. A name without a suffix stands for .h and .cpp.
 constexpr std::array parts_of_references = {
     Exception{"passes/combine/formulas", "the stage's formulas in double"},
-    Exception{"passes/culling/view_sides", "the sides of the view in double"},
+    Exception{"passes/culling/view_planes", "the planes of the view in double"},
     Exception{"passes/gbuffer/codes", "the codes of a G-buffer in double"},
     Exception{"passes/gbuffer/coverage/bands", "how alpha becomes a pattern of samples, in double"},
     Exception{"passes/gbuffer/coverage/mask_tests", "which samples masked surfaces cover, in double"},
@@ -58,7 +58,7 @@ constexpr std::array shows_references = {
     Exception{"replay/probe/probe_frame", "measures functions of a pixel's fragments"},
     Exception{"ui/pixel/pixel_fragments", "shows a pixel's fragments"},
     Exception{"replay/report/picture_error", "compares the displayed picture with that of the truth"},
-    Exception{"replay/session/judgement", "leaves out samples whose coverage hangs on the steps of the device"},
+    Exception{"replay/session/judgment", "leaves out samples whose coverage hangs on the steps of the device"},
 };
 
 /// Parts of references that ask the scene. This list only gets shorter.
@@ -75,7 +75,8 @@ bool is_listed(std::span<const Exception> list, const std::string& path) {
 bool is_of_references(const std::string& path) {
     const std::string stem = std::filesystem::path(path).stem().string();
     const bool is_named = stem == "model" || stem == "truth" || stem == "judge" || stem.ends_with("_model");
-    return is_named || path.starts_with("passes/reference/") || is_listed(parts_of_references, path);
+    return (is_named && path.starts_with("passes/")) || path.starts_with("passes/reference/") ||
+           is_listed(parts_of_references, path);
 }
 
 /// Calls visit(path, line number, included path) for every #include outside of tests of a file in a folder of passes/.

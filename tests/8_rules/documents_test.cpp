@@ -1,5 +1,5 @@
 // What comments and documents refer to in docs/algorithms exists: the file, and the section or label named after it, as in
-// "docs/algorithms/transparency.md 6.10, V6 and V9".
+// "docs/algorithms/transparency.md 6.10, V6 and V9"; and so does what they refer to in DECISIONS.md, whose entries are short.
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -92,6 +92,64 @@ std::size_t check(const std::string& file, const std::vector<std::string>& lines
     return found.size();
 }
 
+std::vector<std::string> lines_of(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(file, line);) lines.push_back(line);
+    return lines;
+}
+
+/// Every document of the folders and of the root.
+std::vector<SourceFile> documents() {
+    const std::filesystem::path root = STRATA_SOURCE_DIR;
+    std::vector<SourceFile> found;
+    for (const char* name : {"README.md", "CONTRIBUTING.md", "CHANGELOG.md"}) found.push_back({name, lines_of(root / name)});
+    for (const char* folder : {"capture_format", "passes", "replay", "ui", "captures", "tests", "docs"})
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder))
+            if (entry.path().extension() == ".md")
+                found.push_back({entry.path().lexically_relative(root), lines_of(entry.path())});
+    return found;
+}
+
+/// The entries of DECISIONS.md as number and text, line breaks as one space. An entry begins with its number and continues
+/// indented.
+std::vector<std::pair<int, std::string>> decisions() {
+    static const std::regex begin("^([0-9]+)\\. (.*)$");
+    std::vector<std::pair<int, std::string>> found;
+    for (const std::string& line : lines_of(std::filesystem::path(STRATA_SOURCE_DIR) / "DECISIONS.md")) {
+        if (std::smatch match; std::regex_search(line, match, begin)) {
+            found.emplace_back(std::stoi(match[1]), match[2]);
+        } else if (line.starts_with("    ") && !found.empty()) {
+            found.back().second += line.substr(3);
+        }
+    }
+    return found;
+}
+
+/// The numbers that follow "DECISIONS" or "DECISIONS.md".
+std::vector<int> named_decisions(const std::string& text) {
+    static const std::string name = "DECISIONS";
+    static const std::regex first("^`?(?:\\.md)?`? ([0-9]+)"), next("^(?:,|,? and) ([0-9]+)");
+    std::vector<int> found;
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+        std::string rest = text.substr(at + name.size(), 100);
+        std::smatch match;
+        for (bool more = std::regex_search(rest, match, first); more; more = std::regex_search(rest, match, next)) {
+            found.push_back(std::stoi(match[1]));
+            rest = match.suffix().str();
+        }
+    }
+    return found;
+}
+
+/// "(86)" and "continued in 101)": how one decision names another.
+std::vector<int> numbers_in_parentheses(const std::string& text) {
+    static const std::regex named("(?:\\(|in )([0-9]+)\\)");
+    std::vector<int> found;
+    for (std::sregex_iterator it(text.begin(), text.end(), named), end; it != end; ++it) found.push_back(std::stoi(it->str(1)));
+    return found;
+}
+
 TEST(Documents, AReferenceIsADocumentAndWhatStandsInIt) {
     const auto found =
         references("see docs/algorithms/lighting.md 1.9, T2.2b and N16: 4096 lights, or `docs/algorithms/a.md` 3.");
@@ -109,17 +167,33 @@ TEST(Documents, EverySectionThatACommentNamesExists) {
 
 TEST(Documents, EverySectionThatADocumentNamesExists) {
     std::size_t found = 0;
-    const std::filesystem::path root = STRATA_SOURCE_DIR;
-    for (const char* folder : {"capture_format", "passes", "replay", "ui", "captures", "tests", "docs"}) {
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
-            if (entry.path().extension() != ".md") continue;
-            std::ifstream file(entry.path());
-            std::vector<std::string> lines;
-            for (std::string line; std::getline(file, line);) lines.push_back(line);
-            found += check(entry.path().string(), lines);
-        }
-    }
+    for (const SourceFile& document : documents()) found += check(document.path.string(), document.lines);
     EXPECT_GT(found, 15u);
+}
+
+TEST(Documents, NoDecisionIsLongerThan400Characters) {
+    for (const auto& [number, text] : decisions()) EXPECT_LE(text.size(), 400u) << "DECISIONS.md " << number << ": " << text;
+    EXPECT_GT(decisions().size(), 100u);
+}
+
+TEST(Documents, NoNumberOfADecisionIsGivenTwice) {
+    std::set<int> seen;
+    for (const auto& [number, text] : decisions()) EXPECT_TRUE(seen.insert(number).second) << number << ": " << text;
+}
+
+TEST(Documents, EveryDecisionThatIsNamedExists) {
+    EXPECT_THAT(named_decisions("see DECISIONS.md 13, 14 and 16; 3 of them (`DECISIONS` 9)"), ElementsAre(13, 14, 16, 9));
+    std::set<int> known;
+    for (const auto& [number, text] : decisions()) known.insert(number);
+    std::vector<SourceFile> files = documents();
+    files.insert(files.end(), source_files().begin(), source_files().end());
+    for (const SourceFile& file : files)
+        for (const int number : named_decisions(joined(file.lines)))
+            EXPECT_TRUE(known.contains(number)) << file.path.string() << " names DECISIONS " << number;
+    for (const auto& [number, text] : decisions()) {
+        for (const int other : numbers_in_parentheses(text))
+            EXPECT_TRUE(known.contains(other)) << "DECISIONS.md " << number << " names " << other;
+    }
 }
 
 }  // namespace

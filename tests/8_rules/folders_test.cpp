@@ -36,7 +36,7 @@ TEST(Folders, EveryStageWithTechniquesHasATruthAndAJudge) {
     }
 }
 
-TEST(Folders, EveryReadmeSaysHowTheMethodFails) {
+TEST(Folders, EveryReadmeSaysHowTheTechniqueFails) {
     for (const std::string& technique : technique_folders()) {
         const std::filesystem::path readme = passes / technique / "README.md";
         EXPECT_TRUE(std::filesystem::exists(readme) && std::filesystem::file_size(readme) > 500)

@@ -5,7 +5,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include "capture_format/frame_features.h"
 #include "capture_format/reader.h"
 #include "capture_format/recorder.h"
 #include "tests/support/session.h"

@@ -11,7 +11,8 @@
 
 #include "capture_format/reader.h"
 #include "capture_format/recorder.h"
-#include "replay/measure/host_timer.h"
+#include "passes/shaders/scene/materials.shared.h"
+#include "replay/gpu/host_timer.h"
 #include "replay/measure/timing.h"
 #include "tests/support/session.h"
 

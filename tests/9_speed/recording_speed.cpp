@@ -1,5 +1,5 @@
 // What recording costs an engine: the consumer of tests/1_capture/consumer, its frames with and without a recorder. Whole runs
-// alternate, because the recorder's thread works on while the next frame is drawn; the ratio is that of two neighbouring runs.
+// alternate, because the recorder's thread works on while the next frame is drawn; the ratio is that of two neighboring runs.
 #include <time.h>
 #include <unistd.h>
 
@@ -13,6 +13,7 @@
 
 #include "capture_format/reader.h"
 #include "consumer/engine.h"
+#include "passes/frame_images.h"
 #include "tests/support/session.h"
 
 namespace strata {

@@ -2,6 +2,8 @@
 #include <benchmark/benchmark.h>
 
 #include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/session/declaration.h"
 #include "tests/support/session.h"
 

@@ -15,7 +15,8 @@
 #include "capture_format/recorder.h"
 #include "consumer/engine.h"
 #include "passes/registry.h"
-#include "replay/measure/host_timer.h"
+#include "passes/technique.h"
+#include "replay/gpu/host_timer.h"
 #include "replay/measure/timing.h"
 #include "tests/support/session.h"
 

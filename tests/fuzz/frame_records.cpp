@@ -4,6 +4,10 @@
 
 #include "capture_format/codec/encode_frame.h"
 #include "capture_format/container/blob_store.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
+#include "capture_format/frame/texture.h"
 
 namespace strata {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "capture_format/frame.h"
-
 namespace strata {
+
+struct Frame;  // capture_format/frame.h
 
 /// Follows every index and reads every texel, vertex and particle; the sanitizers judge. Returns a sum, so that nothing of it is
 /// left out.

@@ -4,6 +4,8 @@
 #   tests/mutants/run.sh                 every mutant, each with its own tests
 #   tests/mutants/run.sh barrier memo    mutants whose names contain one of these texts
 #   tests/mutants/run.sh --all [NAME...] each mutant with the whole suite (ctest --preset tests): hours
+#   tests/mutants/run.sh --for SECONDS   at least three, and as many as begin within SECONDS: in an order by the commit's hash, each with
+#                                        its tests up to the first that notices it; mutants that recompile much are passed over
 #   tests/mutants/run.sh --check         only looks whether every mutant's text is found; builds nothing
 # Exit code: 0 every mutant is noticed; 1 one is not; 2 a text is not found exactly once, a build or an unbroken test fails, or the
 # working tree has changes. Needs the build folder of `cmake --preset tests`. STRATA_BUILD names another one, STRATA_JOBS limits
@@ -13,6 +15,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 
 build=${STRATA_BUILD:-build} jobs=${STRATA_JOBS:-$(nproc)} longest_test=900
+least=3 most_compiles=12  # of --for; a compile takes up to 10 s of CPU
 log=$(mktemp -d)
 touched=()
 
@@ -61,13 +64,13 @@ apply() {
     local file old new text rest
     while IFS=$'\t' read -r file old new; do
         [ -f "$file" ] || { echo "${names[$1]}: there is no $file" >&2; return 1; }
-        text=$(<"$file")
-        rest=${text#*"$old"}
-        if [ "$rest" = "$text" ] || [[ $rest == *"$old"* ]]; then
+        if [ "$(grep -cF -e "$old" -- "$file")" != 1 ]; then
             echo "${names[$1]}: '$old' is not in $file exactly once" >&2
             return 1
         fi
         [ "${2:-}" = dry ] && continue
+        text=$(<"$file")
+        rest=${text#*"$old"}
         touched+=("$file")
         printf '%s%s%s\n' "${text%%"$old"*}" "$new" "$rest" >"$file"
     done <<<"${edits[$1]%$'\n'}"
@@ -78,11 +81,10 @@ build_programs() { nice cmake --build "$build" -j "$jobs" --target "$@" >"$log/b
 
 programs_of() { cut -d' ' -f1 <<<"${tests[$1]%$'\n'}" | sort -u; }
 
-# run_tests INDEX: 0 all pass, 1 some fail, 2 a filter finds none. Prints the first that fail; leaves the CPU seconds in $log/cpu.
+# run_tests LINES: 0 all pass, 1 some fail, 2 a filter finds none. Prints the first that fail; adds the CPU seconds to $log/cpu.
 run_tests() {
     local program filter status failed='' noticed=0
     local TIMEFORMAT='%U %S'
-    : >"$log/cpu"
     while read -r program filter; do
         status=0
         { time timeout "$longest_test" nice "$build/$program" --gtest_filter="$filter" >"$log/test" 2>&1 || status=$?; } 2>>"$log/cpu"
@@ -94,10 +96,31 @@ run_tests() {
         noticed=1
         failed+=$(sed -n 's/^\[  FAILED  \] \([^ ,]*\).*(.*ms)$/\1/p' "$log/test" | head -n 2 | tr '\n' ' ')
         grep -q '^\[  FAILED  \]' "$log/test" || failed+="$program ends with $status "
-    done <<<"${tests[$1]%$'\n'}"
+    done <<<"${1%$'\n'}"
     echo "${failed% }"
     return $noticed
 }
+
+# until_noticed INDEX: builds and runs one test after the other up to the first that fails. As run_tests; 3 if it does not build.
+until_noticed() {
+    local line status
+    while read -r line; do
+        build_programs "${line%% *}" </dev/null || return 3
+        status=0
+        run_tests "$line" </dev/null || status=$?
+        [ $status -eq 0 ] || return $status
+    done <<<"${tests[$1]%$'\n'}"
+}
+
+# The chosen mutants in an order that is another one for every commit.
+shuffled() {
+    local seed
+    seed=$((16#$(git rev-parse --short=7 HEAD | cut -c1-7)))
+    printf '%s\n' "${chosen[@]}" | awk -v seed="$seed" 'BEGIN { srand(seed) } { printf "%.9f %s\n", rand(), $0 }' | sort | cut -d' ' -f2
+}
+
+# How many sources the mutant's first test program compiles.
+compiles_of() { cmake --build "$build" --target "$(cut -d' ' -f1 <<<"${tests[$1]}" | head -n 1)" -- -n | grep -c 'Building CXX' || true; }
 
 run_suite() {
     local status=0
@@ -117,18 +140,20 @@ expect_unbroken_tests_to_pass() {
     mapfile -t programs < <(printf '%s\n' "${programs[@]}" | sort -u)
     build_programs "${programs[@]}" || { tail -n 20 "$log/build" >&2; fatal "the program does not build before anything is broken"; }
     for i in "${chosen[@]}"; do
-        failing=$(run_tests "$i") || fatal "${names[$i]}: fails before anything is broken: $failing"
+        failing=$(run_tests "${tests[$i]}") || fatal "${names[$i]}: fails before anything is broken: $failing"
     done
 }
 
-all=no check=no asked=()
-for argument in "$@"; do
-    case $argument in
+all=no check=no limit='' asked=()
+while [ $# -gt 0 ]; do
+    case $1 in
         --all) all=yes ;;
         --check) check=yes ;;
-        -*) sed -n '2,12p' "$0" >&2; exit 2 ;;
-        *) asked+=("$argument") ;;
+        --for) limit=${2:?--for asks for seconds}; shift ;;
+        -*) sed -n '2,/^set/{/^#/p}' "$0" >&2; exit 2 ;;
+        *) asked+=("$1") ;;
     esac
+    shift
 done
 
 read_list
@@ -138,31 +163,55 @@ for i in "${!names[@]}"; do is_asked_for "${names[$i]}" && chosen+=("$i"); done
 for i in "${chosen[@]}"; do apply "$i" dry || exit 2; done
 [ $check = yes ] && { echo "${#chosen[@]} mutants, each found once"; exit 0; }
 [ -z "$(git status --porcelain --untracked-files=no)" ] || fatal "the working tree has changes; commit or stash them first"
-[ $all = yes ] || expect_unbroken_tests_to_pass
+if [ -n "$limit" ]; then
+    # Their tests have just passed in the suite.
+    mapfile -t chosen < <(shuffled)
+elif [ $all = no ]; then
+    expect_unbroken_tests_to_pass
+fi
 
+SECONDS=0
 result=0  # 1 once a mutant lives, 2 once something is wrong with the list or the build
+done=() passed_over=0
 printf '%-42s %7s  %s\n' mutant 'CPU s' 'noticed by'
 for i in "${chosen[@]}"; do
+    [ -z "$limit" ] || [ ${#done[@]} -lt $least ] || [ $SECONDS -lt "$limit" ] || break
     apply "$i" || exit 2
-    status=0 seconds=-
-    mapfile -t targets < <([ $all = yes ] && echo all || programs_of "$i")
-    if ! build_programs "${targets[@]}"; then
-        cp "$log/build" "${TMPDIR:-/tmp}/strata_mutant_build.log"
-        noticed="DOES NOT BUILD (${TMPDIR:-/tmp}/strata_mutant_build.log)" status=2
-    elif [ $all = yes ]; then
-        noticed=$(run_suite) || status=$?
+    if [ -n "$limit" ] && [ "$(compiles_of "$i")" -gt $most_compiles ]; then
+        restore
+        passed_over=$((passed_over + 1))
+        continue
+    fi
+    done+=("$i")
+    : >"$log/cpu"
+    status=0
+    if [ -n "$limit" ]; then
+        noticed=$(until_noticed "$i") || status=$?
     else
-        noticed=$(run_tests "$i") || status=$?
-        seconds=$(cpu_seconds)
+        mapfile -t targets < <([ $all = yes ] && echo all || programs_of "$i")
+        if ! build_programs "${targets[@]}"; then
+            status=3
+        elif [ $all = yes ]; then
+            noticed=$(run_suite) || status=$?
+        else
+            noticed=$(run_tests "${tests[$i]}") || status=$?
+        fi
     fi
     restore
     case $status in
         0) noticed='NOT NOTICED' result=$((result > 1 ? result : 1)) ;;
         2) result=2 ;;
+        3)
+            cp "$log/build" "${TMPDIR:-/tmp}/strata_mutant_build.log"
+            noticed="DOES NOT BUILD (${TMPDIR:-/tmp}/strata_mutant_build.log)" result=2
+            ;;
     esac
-    printf '%-42s %7s  %s\n' "${names[$i]}" "$seconds" "$noticed"
+    printf '%-42s %7s  %s\n' "${names[$i]}" "$(cpu_seconds)" "$noticed"
 done
 # The build folder is left as the restored files are.
-mapfile -t targets < <([ $all = yes ] && echo all || for i in "${chosen[@]}"; do programs_of "$i"; done | sort -u)
+mapfile -t targets < <([ $all = yes ] && echo all || for i in "${done[@]}"; do programs_of "$i"; done | sort -u)
 build_programs "${targets[@]}" || result=2
+printf '%s of %s mutants in %s s' ${#done[@]} ${#names[@]} $SECONDS
+[ -z "$limit" ] || printf ', chosen by commit %s; %s passed over, because they compile more than %s sources' "$(git rev-parse --short=12 HEAD)" $passed_over $most_compiles
+printf '\n'
 exit $result

@@ -1,4 +1,4 @@
-// Recorded expectations (golden images, baselines) change by an explicit act alone: STRATA_ACCEPT=1 in the environment of one
+// Recorded expectations (golden images, baselines) change by an explicit command alone: STRATA_ACCEPT=1 in the environment of one
 // run of the test program. That run writes what it got and fails all the same, so that nothing is accepted in passing.
 #pragma once
 

@@ -3,7 +3,11 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/session/choice_text.h"
+#include "tests/support/shell_lines.h"
 
 namespace strata {
 namespace {
@@ -39,11 +43,7 @@ void expect_within_tolerance(const Accuracy& accuracy, const Technique& techniqu
 
 void expect_proven_within_tolerance(const Accuracy& accuracy, const Technique& technique, const Request& request,
                                     std::string_view scenario) {
-    const View view = must(session_of_scenarios().frame(request.variant.frame)).view;
-    SCOPED_TRACE(fmt::format("reproduce: strata record {} --size {}x{} --samples {} && strata report {}.strata --stage {} {}",
-                             scenario, view.width / request.variant.extent_divisor, view.height / request.variant.extent_divisor,
-                             request.variant.samples, scenario, name(technique.stage),
-                             sets_of(request).empty() ? "" : "--set " + sets_of(request)));
+    SCOPED_TRACE("reproduce: " + line_that_judges(technique, request, scenario));
     expect_within_tolerance(accuracy, technique, request, scenario);
     // Two black images agree about nothing; and a model that cannot decide much proves little.
     EXPECT_GE(accuracy.compared - accuracy.trivial, least_nontrivial(technique));

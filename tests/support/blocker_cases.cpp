@@ -2,9 +2,10 @@
 
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <random>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/shaders/blockers.shared.h"
 
 namespace strata {
@@ -42,7 +43,7 @@ glm::vec3 point_of(Dice& dice, const Cell<float>& cell, const lighting::TileRays
     const double z = dice.between(double(cell.z_near), double(cell.z_far));
     const glm::vec3 p(z * glm::dvec3(dice.between(double(rays.left), double(rays.right)),
                                      dice.between(double(rays.bottom), double(rays.top)), 1));
-    return p + glm::vec3(dice.direction()) * std::max(least_surface_offset, surface_offset_per_metre * p.z);
+    return p + glm::vec3(dice.direction()) * std::max(least_surface_offset, surface_offset_per_meter * p.z);
 }
 
 /// Mostly around the way from the light to the cell; some of them edge-on, some without area.

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "passes/lighting/cells.h"
-#include "passes/shaders/scene.shared.h"
 
 namespace strata {
 

@@ -2,6 +2,11 @@
 
 #include <cstring>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/texture.h"
+
 namespace strata {
 
 void paint_chessboard(Frame& frame, float cutoff) {

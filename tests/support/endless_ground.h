@@ -5,7 +5,7 @@
 
 namespace strata {
 
-/// The plane y = 0 of a kilometre each way, Lambert, under a sky and a ground of radiance 1.
+/// The plane y = 0 of a kilometer each way, Lambert, under a sky and a ground of radiance 1.
 Frame endless_ground(const Camera&, std::uint32_t samples);
 
 }  // namespace strata

@@ -52,9 +52,9 @@ ImportedScene imported(const std::string& text, const GltfOptions& options) {
     return *std::move(scene);
 }
 
-std::string refusal(const std::string& text) {
+std::optional<Error> refusal(const std::string& text) {
     const auto scene = import_text(text);
-    return scene ? "it was imported" : scene.error().sentence;
+    return scene ? std::optional<Error>() : scene.error();
 }
 
 }  // namespace strata

@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <initializer_list>
+#include <optional>
 #include <string>
 
 #include "capture_format/import/gltf.h"
@@ -12,7 +13,7 @@ namespace strata {
 /// 2 x 2: red, half-covered green; uncovered blue, white.
 inline constexpr const char* tiny_png =
     "iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAYAAABytg0kAAAAFElEQVR42mP4z8DwHwgbGMA0EAAAP9cIeV/HbbEAAAAASUVORK5CYII=";
-/// 8 x 8 of grey 188.
+/// 8 x 8 of gray 188.
 inline constexpr const char* tiny_jpeg =
     "/9j/4AAQSkZJRgABAQAAAQABAAD/2wCEAAMCAgMCAgMDAwMEAwMEBQgFBQQEBQoHBwYIDAoMDAsKCwsNDhIQDQ4RDgsLEBYQERMUFRUVDA8XGBYUGBIUFRQB"
     "AwQEBQQFCQUFCRQNCw0UFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFP/AABEIAAgACAMBIgACEQEDEQH/xAGi"
@@ -79,7 +80,7 @@ GltfScene opened(const std::string& text, const GltfOptions& options = {});
 Result<ImportedScene> import_text(const std::string& text, const GltfOptions& options = {});
 /// What was imported; throws the sentence of an error.
 ImportedScene imported(const std::string& text, const GltfOptions& options = {});
-/// The sentence of the error.
-std::string refusal(const std::string& text);
+/// The error; nothing when it was imported.
+std::optional<Error> refusal(const std::string& text);
 
 }  // namespace strata

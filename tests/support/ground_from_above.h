@@ -9,7 +9,7 @@ namespace strata {
 
 inline constexpr double height_above_ground = 10;
 
-/// `width` by `rows` pixels; the picture is `wide` metres wide on the ground, its middle at x = 0. Nothing is drawn.
+/// `width` by `rows` pixels; the picture is `wide` meters wide on the ground, its middle at x = 0. Nothing is drawn.
 Frame ground_from_above(std::uint32_t width, std::uint32_t rows, double wide);
 
 /// Along +x and down, `angle` radians from the vertical, with one cascade.

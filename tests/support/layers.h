@@ -1,4 +1,4 @@
-// Fragments for facts about blending: one grey layer of a pixel.
+// Fragments for facts about blending: one gray layer of a pixel.
 #pragma once
 
 #include "passes/reference/fragments.h"

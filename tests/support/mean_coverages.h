@@ -13,7 +13,7 @@ namespace strata::gbuffer {
 inline constexpr std::array<std::uint32_t, 13> table_alphas = {1, 3, 4, 5, 7, 8, 9, 10, 11, 12, 13, 14, 16};
 
 struct MeanCoverages {
-    std::uint32_t method = 0;
+    std::uint32_t mode = 0;
     std::array<double, table_alphas.size()> at;
 };
 

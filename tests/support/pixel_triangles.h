@@ -9,7 +9,7 @@
 
 namespace strata {
 
-/// Corners: pixels from the upper left, and view depth in metres.
+/// Corners: pixels from the upper left, and view depth in meters.
 struct PixelTriangle {
     std::array<glm::dvec3, 3> corners;
     glm::vec3 color{0.5f};

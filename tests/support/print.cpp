@@ -6,10 +6,6 @@
 
 namespace strata {
 
-void PrintTo(const Error& error, std::ostream* out) {
-    *out << "error " << static_cast<int>(error.fault) << ": " << error.sentence;
-}
-
 void PrintTo(const Technique& technique, std::ostream* out) { *out << technique.name; }
 
 std::string as_identifier(std::string text) {

@@ -6,12 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/result.h"
 #include "passes/technique.h"
+#include "tests/support/errors.h"
 
 namespace strata {
 
-void PrintTo(const Error&, std::ostream*);
 void PrintTo(const Technique&, std::ostream*);
 
 /// A technique's name, or a text that begins with one, as part of a test's name: "transparency_voxel".

@@ -3,9 +3,10 @@
 
 #include <cmath>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/lighting/tile_cell.h"
 #include "passes/shaders/light_features.shared.h"
+#include "passes/shaders/scene/view.shared.h"
 #include "tests/support/random_numbers.h"
 
 namespace strata::lighting {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "capture_format/frame.h"
 #include "tests/support/session.h"
 
 namespace strata {

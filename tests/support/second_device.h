@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "capture_format/frame.h"
 #include "replay/session/session.h"
 
 namespace strata {

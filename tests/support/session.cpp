@@ -1,6 +1,8 @@
 #include "tests/support/session.h"
 
 #include "captures/scenarios.h"
+#include "passes/frame_images.h"
+#include "passes/technique.h"
 #include "replay/images/image_io.h"
 #include "replay/session/choice_text.h"
 #include "replay/session/session_on_device.h"

@@ -1,5 +1,6 @@
 #include "tests/support/test_frame.h"
 
+#include "passes/frame_images.h"
 #include "tests/support/session.h"
 
 namespace strata {

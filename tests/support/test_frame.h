@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "passes/graph/graph.h"
 #include "passes/graph/plan.h"
 #include "tests/support/device.h"
 #include "tests/support/glsl.h"

@@ -3,6 +3,9 @@
 #include <map>
 #include <tuple>
 
+#include "capture_format/frame.h"
+#include "passes/stages.h"
+
 namespace strata {
 
 const ImageSet& truth_of(Stage stage, const Request& request) {

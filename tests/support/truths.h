@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "passes/technique.h"
 #include "tests/support/session.h"
 
 namespace strata {

@@ -94,12 +94,11 @@ Result<Together> bring_together(const PicturePair& pair) {
     if (!pair.a.is_bytes && !pair.b.is_bytes) return made;
     const bool both_are_bytes = pair.a.is_bytes && pair.b.is_bytes;
     if (!both_are_bytes && content_of(pair.image, made.a->shape.format) != Content::display)
-        return fail_unnamed(Fault::usage,
-                            "'{}' is not display light, and a file of bytes holds nothing else; compare 'display', or an EXR",
-                            pair.image);
+        return fail(Fault::usage, "compare.not_display_values",
+                    "'{image}' has no display values, and a PNG has no others; compare 'display', or an EXR", pair.image);
     if (const auto fit = check_comparable(pair.image, *made.a, *made.b); !fit) return fit.error();
     if (made.a->shape.layers * made.a->shape.extent.depth > 1)
-        return fail_unnamed(Fault::usage, "'{}' has several layers, and a file of bytes has one", pair.image);
+        return fail(Fault::usage, "compare.several_layers", "'{image}' has several layers, and a PNG has one", pair.image);
     return Together{as_bytes(made.a), as_bytes(made.b)};
 }
 
@@ -170,14 +169,16 @@ Result<SidePicture> read_picture(const std::filesystem::path& path, const std::s
         return read_png(path).and_then(
             [&](auto& bytes) { return SidePicture{.image = as_light(bytes), .is_bytes = true, .about = file}; });
     }
-    if (kind != ".exr") return fail_unnamed(Fault::usage, "pictures are read from .png and .exr, not from '{}'", file);
+    if (kind != ".exr")
+        return fail(Fault::usage, "compare.file_type", "pictures are read from .png and .exr, not from '{file}'", file);
     auto images = read_exr(path);
     if (!images) return images.error();
     const auto named = images->size() == 1 ? images->begin() : images->find(image);
     if (named != images->end()) return SidePicture{.image = std::make_shared<HostImage>(std::move(named->second)), .about = file};
     std::string known;
     for (const auto& [name, each] : *images) known += fmt::format("{}'{}'", known.empty() ? "" : ", ", name);
-    return fail_unnamed(Fault::usage, "{} has no '{}', but {}", file, image, known);
+    return fail(Fault::usage, "compare.no_image_in_file", "{file} has no image '{image}'; its images are {known}", file, image,
+                known);
 }
 
 Result<ComparedPictures> compare(const PicturePair& pair) {

@@ -5,6 +5,9 @@
 
 #include <fmt/ranges.h>
 
+#include "capture_format/reader.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/expectations/expectation_check.h"
 #include "replay/images/image_io.h"
 
@@ -16,15 +19,16 @@ bool is_replay(Source source) {
 }
 
 Result<SidePicture> picture_after(Session& session, const Request& request, const Subject& subject) {
-    auto acts = session.act_images(request);
-    if (!acts) return acts.error();
-    for (std::size_t i = acts->size(); i-- > 0;) {
-        ActImages& act = (*acts)[i];
-        const auto image = act.images.find(subject.image);
-        if (image == act.images.end() || (subject.after && act.stage != *subject.after)) continue;
-        return SidePicture{.image = std::make_shared<HostImage>(std::move(image->second)), .about = act.choice};
+    auto passes = session.pass_images(request);
+    if (!passes) return passes.error();
+    for (std::size_t i = passes->size(); i-- > 0;) {
+        PassImages& pass = (*passes)[i];
+        const auto image = pass.images.find(subject.image);
+        if (image == pass.images.end() || (subject.after && pass.stage != *subject.after)) continue;
+        return SidePicture{.image = std::make_shared<HostImage>(std::move(image->second)), .about = pass.choice};
     }
-    return fail_unnamed(Fault::usage, "{} writes no '{}' in this frame", name(*subject.after), subject.image);
+    return fail(Fault::usage, "frame.no_output", "the stage {stage} writes no '{output}' in this frame", name(*subject.after),
+                subject.image);
 }
 
 std::string images_with_truth() {
@@ -36,14 +40,16 @@ std::string images_with_truth() {
 
 Result<SidePicture> true_picture(Session& session, const Request& request, const Subject& subject) {
     if (!subject.after)
-        return fail_unnamed(Fault::usage, "no stage of this frame writes '{}' and has a truth; {} have one", subject.image,
-                            images_with_truth());
+        return fail(Fault::usage, "stage.no_truth",
+                    "no stage that writes '{image}' in this frame has a truth; images with a truth: {known}", subject.image,
+                    images_with_truth());
     const StageInfo& stage = info(*subject.after);
-    if (!stage.truth) return fail_unnamed(Fault::usage, "no reference solution exists for stage {}", stage.name);
+    if (!stage.truth) return fail(Fault::usage, "stage.no_truth", "no reference solution exists for stage {stage}", stage.name);
     const auto truth = session.truth(request, stage.stage);
     if (!truth) return truth.error();
     const auto image = truth->find(subject.image);
-    if (image == truth->end()) return fail_unnamed(Fault::usage, "the truth of {} has no '{}'", stage.name, subject.image);
+    if (image == truth->end())
+        return fail(Fault::usage, "stage.no_truth_of_image", "the truth of {stage} has no '{image}'", stage.name, subject.image);
     SidePicture made = picture_of(image->second);
     made.about = fmt::format("truth of {}, in double", stage.name);
     return made;
@@ -86,33 +92,34 @@ std::optional<Stage> stage_of_truth(const std::string& image, std::span<const Sk
 
 Result<SidePicture> expected_picture(Session& session, Request request, const Subject& subject) {
     if (!session.capture())
-        return fail_unnamed(Fault::expectation_missing, "the frames were made in code and have no expected results");
+        return fail(Fault::expectation_missing, "expectation.no_capture",
+                    "the frames were made in code and have no expected results");
     const auto all = expectations_of(*session.capture());
     if (!all) return all.error();
     request.outputs.clear();
-    request.acts = Acts::brought_back;
+    request.passes = Passes::read_back;
     const auto run = session.run(request);
     if (!run) return run.error();
     const Expectation got = expectation_of(session, request, *run);
     const Expectation* expected = best_of(*all, got);
     if (!expected)
-        return fail_unnamed(Fault::expectation_missing,
-                            "the capture has no expected results for frame {}; 'strata accept' stores them",
-                            request.variant.frame);
-    for (std::size_t i = expected->acts.size(); i-- > 0;) {
-        const ExpectedAct& act = expected->acts[i];
-        const auto image = std::ranges::find(act.images, subject.image, &ExpectedImage::name);
-        if (image == act.images.end() || (subject.after && run->acts[i].stage != *subject.after)) continue;
+        return fail(Fault::expectation_missing, "replay.no_expectation",
+                    "the capture has no expected results for frame {frame}; 'strata accept' stores them", request.variant.frame);
+    for (std::size_t i = expected->passes.size(); i-- > 0;) {
+        const ExpectedPass& pass = expected->passes[i];
+        const auto image = std::ranges::find(pass.images, subject.image, &ExpectedImage::name);
+        if (image == pass.images.end() || (subject.after && run->passes[i].stage != *subject.after)) continue;
         if (!image->texels.empty()) return kept_picture(*session.capture(), *image, *expected);
-        const auto now = run->acts[i].images.find(subject.image);
-        const bool same = now != run->acts[i].images.end() && hash_of(now->second) == image->hash;
-        return fail_unnamed(
-            Fault::expectation_missing,
-            "only a hash of '{}' is stored ({} a replay as recorded on this device); 'strata accept --with-images' "
+        const auto now = run->passes[i].images.find(subject.image);
+        const bool same = now != run->passes[i].images.end() && hash_of(now->second) == image->hash;
+        return fail(
+            Fault::expectation_missing, "expectation.hash_only",
+            "only a hash of '{image}' is stored ({match} a replay as recorded on this device); 'strata accept --with-images' "
             "stores pictures",
             subject.image, same ? "it matches" : "it does not match");
     }
-    return fail_unnamed(Fault::expectation_missing, "no expected result for '{}'", subject.image);
+    return fail(Fault::expectation_missing, "expectation.no_image", "the capture has no expected result for '{image}'",
+                subject.image);
 }
 
 void ComparedSide::show(const SideWish& wish, Services& services) {

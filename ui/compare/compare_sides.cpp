@@ -6,6 +6,9 @@
 
 #include <fmt/ranges.h>
 
+#include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/session/choice_text.h"
 #include "ui/picture/outputs.h"
 #include "ui/widgets/param_widget.h"

@@ -2,12 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include <fmt/core.h>
 
 #include "capture_format/codec/texture_bytes.h"
 #include "capture_format/enum_names.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/light_volume.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
+#include "capture_format/frame/texture.h"
+#include "capture_format/light_types.h"
 #include "passes/graph/describe.h"
 #include "ui/widgets/find_text.h"
 
@@ -210,9 +218,8 @@ CaptureTable lights_of(const Frame& frame) {
         const Light& light = frame.lights[i];
         CaptureCell at = cell(light.position);
         at.number = glm::length(light.position - frame.view.origin);
-        const bool has_angles = light.type == LightType::round_spot || light.type == LightType::square_spot;
         CaptureCell angles = degrees(light.outer_angle);
-        angles.text = has_angles ? fmt::format("{} {}", degrees(light.inner_angle).text, angles.text) : "";
+        angles.text = is_spot(light.type) ? fmt::format("{} {}", degrees(light.inner_angle).text, angles.text) : "";
         table.rows.push_back({row_name(i, light.name), cell(name(light.type)), std::move(at), cell(light.intensity),
                               cell(light.range), std::move(angles), cell(light.source_radius),
                               light.shadow.casts ? cell(light.shadow.map_size) : CaptureCell{"", 0},
@@ -307,8 +314,8 @@ CaptureTable weather_of(const Frame& frame) {
     add("sun: shafts", yes_or_no(frame.sun.shafts));
     add("hemisphere: sky", cell(frame.hemisphere.sky), "radiance");
     add("hemisphere: ground", cell(frame.hemisphere.ground), "radiance");
-    add("fog: density", cell(frame.fog.density), "per metre; 0: no fog");
-    add("fog: path", cell(name(frame.fog.path)), "what its metres are counted along");
+    add("fog: density", cell(frame.fog.density), "per meter; 0: no fog");
+    add("fog: path", cell(name(frame.fog.path)), "what its meters are counted along");
     add("fog: color", cell(frame.fog.color), "radiance");
     add("rain: intensity", cell(frame.rain.intensity), "0 none, 1 heavy");
     add("rain: wetness", cell(frame.rain.wetness), "0 dry, 1 soaked");

@@ -1,12 +1,18 @@
 // What a frame is made of, as tables: a row per draw, light and so on. Values alone, without the frame's texels and vertices.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "capture_format/frame.h"
+namespace strata {
+
+struct Frame;  // capture_format/frame.h
+
+}  // namespace strata
 
 namespace strata::ui {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "passes/registry.h"
+#include "passes/technique.h"
 
 namespace strata::ui {
 namespace {

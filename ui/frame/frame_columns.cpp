@@ -68,20 +68,20 @@ void FrameColumns::set_up(const ShownFrame& frame) const {
     }
 }
 
-void FrameColumns::draw_act(Widgets& widgets, const ShownFrame& frame, const FrameAct& act, int column) const {
+void FrameColumns::draw_pass(Widgets& widgets, const ShownFrame& frame, const FramePass& pass, int column) const {
     ImGui::TableSetColumnIndex(column);
     if (beside_ == Beside::time) {
-        if (act.ms) draw_time(widgets, frame, text_of(act.scope), *act.ms, {act.scope.stage, .4f});
+        if (pass.ms) draw_time(widgets, frame, text_of(pass.scope), *pass.ms, {pass.scope.stage, .4f});
         return;
     }
     const bool is_memory = beside_ == Beside::memory;
-    text_at_right(widgets, fmt::format("{} {}", text_of(act.scope), is_memory ? "made" : "work"),
-                  is_memory ? size_or_nothing(act.made_bytes) : plural(act.end - act.first, "step"));
-    widgets.help(is_memory ? "images and buffers that its steps are the first to use" : plural(act.draws, "draw"));
+    text_at_right(widgets, fmt::format("{} {}", text_of(pass.scope), is_memory ? "made" : "work"),
+                  is_memory ? size_or_nothing(pass.made_bytes) : plural(pass.end - pass.first, "step"));
+    widgets.help(is_memory ? "images and buffers that its steps are the first to use" : plural(pass.draws, "draw"));
     ImGui::TableSetColumnIndex(column + 1);
-    text_at_right(widgets, fmt::format("{} {}", text_of(act.scope), is_memory ? "alive" : "waits"),
-                  is_memory ? size_or_nothing(act.alive_bytes) : fmt::format("{}", act.barriers));
-    widgets.help(is_memory ? "the most that is alive at one of its steps" : plural(act.barriers, "barrier"));
+    text_at_right(widgets, fmt::format("{} {}", text_of(pass.scope), is_memory ? "alive" : "waits"),
+                  is_memory ? size_or_nothing(pass.alive_bytes) : fmt::format("{}", pass.barriers));
+    widgets.help(is_memory ? "the most that is alive at one of its steps" : plural(pass.barriers, "barrier"));
 }
 
 void FrameColumns::draw_step(Widgets& widgets, const ShownFrame& frame, std::string_view label, std::size_t step,

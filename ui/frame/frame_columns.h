@@ -22,7 +22,7 @@ public:
     void draw_choice(Widgets&);
     /// As the next columns of the table; times that were not measured leave their room to the names.
     void set_up(const ShownFrame&) const;
-    void draw_act(Widgets&, const ShownFrame&, const FrameAct&, int column) const;
+    void draw_pass(Widgets&, const ShownFrame&, const FramePass&, int column) const;
     void draw_step(Widgets&, const ShownFrame&, std::string_view label, std::size_t step, int column) const;
 
 private:

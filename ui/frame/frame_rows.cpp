@@ -2,61 +2,63 @@
 
 #include <algorithm>
 
+#include "passes/stages.h"
+
 namespace strata::ui {
 namespace {
 
-std::vector<FrameAct> acts_of(const std::vector<PlanRow>& steps) {
-    std::vector<FrameAct> acts;
+std::vector<FramePass> passes_of(const std::vector<PlanRow>& steps) {
+    std::vector<FramePass> passes;
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const PlanRow& step = steps[i];
-        if (acts.empty() || acts.back().scope != step.scope) acts.push_back({.scope = step.scope, .first = i});
-        FrameAct& act = acts.back();
-        act.end = i + 1;
-        act.barriers += step.barriers;
-        act.draws += step.draws;
-        act.made_bytes += step.made_bytes;
-        act.alive_bytes = std::max(act.alive_bytes, step.alive_bytes);
+        if (passes.empty() || passes.back().scope != step.scope) passes.push_back({.scope = step.scope, .first = i});
+        FramePass& pass = passes.back();
+        pass.end = i + 1;
+        pass.barriers += step.barriers;
+        pass.draws += step.draws;
+        pass.made_bytes += step.made_bytes;
+        pass.alive_bytes = std::max(pass.alive_bytes, step.alive_bytes);
     }
-    return acts;
+    return passes;
 }
 
-/// The measured steps of an act's scope are in one place, too.
-void take_times(FrameRows& rows, FrameAct& act, const std::vector<PlanRow>& steps, const std::vector<StepRecord>& timed) {
-    const auto begin = std::ranges::find(timed, act.scope, &StepRecord::scope);
+/// The measured steps of a pass's scope are in one place, too.
+void take_times(FrameRows& rows, FramePass& pass, const std::vector<PlanRow>& steps, const std::vector<StepRecord>& timed) {
+    const auto begin = std::ranges::find(timed, pass.scope, &StepRecord::scope);
     const auto first = static_cast<std::size_t>(begin - timed.begin());
     bool has_all = true;
-    for (std::size_t i = act.first; i < act.end; ++i) {
-        const std::size_t place = first + i - act.first;
+    for (std::size_t i = pass.first; i < pass.end; ++i) {
+        const std::size_t place = first + i - pass.first;
         const bool is_same =
-            place < timed.size() && timed[place].scope == act.scope && timed[place].name == steps[i].name && timed[place].ms;
+            place < timed.size() && timed[place].scope == pass.scope && timed[place].name == steps[i].name && timed[place].ms;
         if (is_same) rows.timed[i] = place;
         has_all = has_all && is_same;
     }
-    if (has_all) act.ms = spread_of_sum(timed, first, first + act.end - act.first);
+    if (has_all) pass.ms = spread_of_sum(timed, first, first + pass.end - pass.first);
 }
 
 }  // namespace
 
 FrameRows frame_rows(const Replay& replay, const FrameTimes* times) {
-    FrameRows rows{.acts = acts_of(replay.steps), .timed = {}};
+    FrameRows rows{.passes = passes_of(replay.steps), .timed = {}};
     rows.timed.resize(replay.steps.size());
-    for (FrameAct& act : rows.acts) {
-        act.is_executed = std::ranges::find(replay.run.steps, act.scope, &StepRecord::scope) != replay.run.steps.end();
-        if (times) take_times(rows, act, replay.steps, times->run.steps);
+    for (FramePass& pass : rows.passes) {
+        pass.is_executed = std::ranges::find(replay.run.steps, pass.scope, &StepRecord::scope) != replay.run.steps.end();
+        if (times) take_times(rows, pass, replay.steps, times->run.steps);
     }
     return rows;
 }
 
 namespace {
 
-/// What makes a view is no act of the frame: looking at one changes no count.
-bool counts(const FrameAct& act) { return act.scope.kind != ScopeKind::view; }
+/// What makes a view is no pass of the frame: looking at one changes no count.
+bool counts(const FramePass& pass) { return pass.scope.kind != ScopeKind::view; }
 
 }  // namespace
 
 std::size_t FrameRows::executed() const {
     return static_cast<std::size_t>(
-        std::ranges::count_if(acts, [](const FrameAct& act) { return counts(act) && act.is_executed; }));
+        std::ranges::count_if(passes, [](const FramePass& pass) { return counts(pass) && pass.is_executed; }));
 }
 
 std::optional<std::size_t> FrameRows::step_timed_as(std::size_t place) const {
@@ -83,14 +85,14 @@ std::string time_text(const Spread& spread) {
 
 std::string face_of(const Scope& scope) {
     if (scope.kind == ScopeKind::view) return fmt::format("{}:{} at view", scope.technique, scope.view);
-    if (scope.kind != ScopeKind::act) return text_of(scope);
+    if (scope.kind != ScopeKind::pass) return text_of(scope);
     return scope.at == scope.stage ? scope.technique : fmt::format("{} at {}", scope.technique, name(scope.at));
 }
 
 std::string short_name(std::string_view step) { return std::string(step.substr(step.rfind('/') + 1)); }
 
 std::string executed_text(const FrameRows& rows) {
-    const std::size_t executed = rows.executed(), all = static_cast<std::size_t>(std::ranges::count_if(rows.acts, counts));
+    const std::size_t executed = rows.executed(), all = static_cast<std::size_t>(std::ranges::count_if(rows.passes, counts));
     return fmt::format("{} of {} {} run, {} reused", executed, all, all == 1 ? "pass" : "passes", all - executed);
 }
 

@@ -1,4 +1,4 @@
-// The frame as rows, before anything is drawn: acts with their steps, what each took, holds and does, what was kept of earlier
+// The frame as rows, before anything is drawn: passes with their steps, what each took, holds and does, what was kept of earlier
 // replays.
 #pragma once
 
@@ -18,7 +18,7 @@ struct FrameTimes {
 };
 
 /// Consecutive steps of one scope.
-struct FrameAct {
+struct FramePass {
     Scope scope;
     std::size_t first = 0, end = 0;  ///< steps of the plan
     bool is_executed = false;        ///< in the latest replay; else what it made was kept from an earlier one
@@ -28,14 +28,14 @@ struct FrameAct {
 };
 
 struct FrameRows {
-    std::vector<FrameAct> acts;
+    std::vector<FramePass> passes;
     std::vector<std::optional<std::size_t>> timed;  ///< of each step of the plan: its place among those measured
-    std::size_t executed() const;                   ///< acts, without what makes views
+    std::size_t executed() const;                   ///< passes, without what makes views
     /// The plan's step that was measured as the one in that place.
     std::optional<std::size_t> step_timed_as(std::size_t place) const;
 };
 
-/// Times are those of equal steps of an equal act, wherever it stands now; null: nothing was measured.
+/// Times are those of equal steps of an equal pass, wherever it stands now; null: nothing was measured.
 FrameRows frame_rows(const Replay&, const FrameTimes*);
 
 /// The sum of steps [first, end), each repeat by itself: what a busy machine did to one repeat is not counted twice.
@@ -43,7 +43,7 @@ std::optional<Spread> spread_of_sum(const std::vector<StepRecord>&, std::size_t 
 
 /// "12.34 ±0.12", the deviation only where there is one.
 std::string time_text(const Spread&);
-/// "shadows/pcf", and of an act at another stage than its own "shadows/pcf at occlusion".
+/// "shadows/pcf", and of a pass at another stage than its own "shadows/pcf at occlusion".
 std::string face_of(const Scope&);
 /// "sampled.comp" of "lighting/tiled/sampled.comp".
 std::string short_name(std::string_view step);

@@ -9,7 +9,7 @@
 namespace strata::ui {
 namespace {
 
-constexpr float act_height = 18, step_height = 16, axis_height = 16;
+constexpr float pass_height = 18, step_height = 16, axis_height = 16;
 // Closer than this nobody measures anything.
 constexpr double least_share = 1e-3;
 
@@ -88,14 +88,14 @@ Timeline timeline_of(const FrameTimes& times) {
         made.steps.push_back({i, i + 1, steps[i].scope.stage, short_name(steps[i].name),
                               help_of(fmt::format("{}\n{}", steps[i].name, text_of(steps[i].scope)), *steps[i].ms, frame_ms),
                               from, made.ms});
-        if (made.acts.empty() || steps[made.acts.back().first].scope != steps[i].scope)
-            made.acts.push_back({i, i, steps[i].scope.stage, face_of(steps[i].scope), {}, from, from});
-        made.acts.back().end = i + 1;
-        made.acts.back().to = made.ms;
+        if (made.passes.empty() || steps[made.passes.back().first].scope != steps[i].scope)
+            made.passes.push_back({i, i, steps[i].scope.stage, face_of(steps[i].scope), {}, from, from});
+        made.passes.back().end = i + 1;
+        made.passes.back().to = made.ms;
     }
-    for (TimelineBar& act : made.acts)
-        act.help = fmt::format("{}\n{}", help_of(act.face, *spread_of_sum(steps, act.first, act.end), frame_ms),
-                               plural(act.end - act.first, "step"));
+    for (TimelineBar& pass : made.passes)
+        pass.help = fmt::format("{}\n{}", help_of(pass.face, *spread_of_sum(steps, pass.first, pass.end), frame_ms),
+                                plural(pass.end - pass.first, "step"));
     return made;
 }
 
@@ -123,14 +123,14 @@ std::optional<std::size_t> draw_timeline(Widgets& widgets, const Timeline& timel
                                          std::optional<AxisRange>& seen) {
     const AxisRange all{0, timeline.ms};
     const ImVec2 from = ImGui::GetCursorScreenPos();
-    const ImVec2 size(std::max(40.0f, ImGui::GetContentRegionAvail().x), act_height + step_height + axis_height + 3);
+    const ImVec2 size(std::max(40.0f, ImGui::GetContentRegionAvail().x), pass_height + step_height + axis_height + 3);
     Lane lane{from, {from.x + size.x, from.y + size.y}, seen.value_or(all)};
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    const float steps_top = from.y + act_height + 1;
+    const float steps_top = from.y + pass_height + 1;
     const auto bar_under = [&]() -> const TimelineBar* {
         if (mouse.x < lane.from.x || mouse.x >= lane.to.x || mouse.y < from.y || mouse.y >= lane.to.y - axis_height)
             return nullptr;
-        return bar_at(mouse.y < steps_top ? timeline.acts : timeline.steps, lane.ms_at(mouse.x));
+        return bar_at(mouse.y < steps_top ? timeline.passes : timeline.steps, lane.ms_at(mouse.x));
     };
     const TimelineBar* under = bar_under();
     widgets.canvas("timeline", size,
@@ -150,7 +150,7 @@ std::optional<std::size_t> draw_timeline(Widgets& widgets, const Timeline& timel
             if (marks.selected && bar.first <= *marks.selected && *marks.selected < bar.end)
                 draw_bar(lane, bar, top, top + height, alpha, true);
     };
-    draw(timeline.acts, from.y, act_height);
+    draw(timeline.passes, from.y, pass_height);
     draw(timeline.steps, steps_top, step_height);
     draw_axis(lane);
     list.PopClipRect();

@@ -1,4 +1,4 @@
-// The measured frame to scale: a bar per act and below it a bar per step, one after the other as the device ran them. The wheel
+// The measured frame to scale: a bar per pass and below it a bar per step, one after the other as the device ran them. The wheel
 // zooms at the pointer, dragging pans, a double click shows all.
 #pragma once
 
@@ -20,7 +20,7 @@ struct TimelineBar {
 };
 
 struct Timeline {
-    std::vector<TimelineBar> acts, steps;
+    std::vector<TimelineBar> passes, steps;
     double ms = 0;  ///< of all steps: the sum of their medians
 };
 Timeline timeline_of(const FrameTimes&);
@@ -38,7 +38,7 @@ struct TimelineMarks {
     std::optional<std::size_t> selected;  ///< a measured step
     bool is_stale = false;                ///< the frame has changed since: drawn paler
 };
-/// What is seen is kept by the panel; none: all of it. Returns the measured step that was clicked: an act's last one.
+/// What is seen is kept by the panel; none: all of it. Returns the measured step that was clicked: a pass's last one.
 std::optional<std::size_t> draw_timeline(Widgets&, const Timeline&, const TimelineMarks&, std::optional<AxisRange>& seen);
 
 }  // namespace strata::ui

@@ -1,8 +1,11 @@
-// Accuracy and cost: every method of a stage at its settings against the truth, as `strata report` measures them; any error over
-// any cost, and a click that applies a setting.
+// Accuracy and cost: every technique of a stage at its settings against the truth, as `strata report` measures them; any error
+// over any cost, and a click that applies a setting.
 #include <algorithm>
 #include <array>
 
+#include "capture_format/reader.h"
+#include "passes/registry.h"
+#include "passes/stages.h"
 #include "replay/plural.h"
 #include "replay/report/variants.h"
 #include "ui/panel.h"
@@ -62,7 +65,7 @@ private:
     }
 
     void model_on(const GpuModel& gpu, const Study& study, const Model& model, Services& services) {
-        start(start_modelling(services.replayer, study, gpu, model.program), services);
+        start(start_modeling(services.replayer, study, gpu, model.program), services);
     }
 
     /// At once for who looks; the thread ends what it is in.
@@ -86,7 +89,7 @@ private:
         if (result) {
             const Study& study = *result;
             studies_.insert_or_assign(running_, study);
-            // What was modelled is what one wants to see.
+            // What was modeled is what one wants to see.
             if (running_ == stage_ && !study.missing.empty()) cost_ = {study.columns.back().label, {}};
             forget_zoom();
             services.log.push_back(
@@ -156,16 +159,17 @@ private:
         if (widgets.button("measure", is_known ? "Measure again" : "Measure")) measure(model, services);
         ImGui::EndDisabled();
         widgets.help(
-            "every method of the stage at its settings: its error against the truth, its time and its memory; what strata report "
+            "every technique of the stage at its settings: its error against the truth, its time and its memory; what strata "
+            "report "
             "measures");
         if (!is_known) return;
         ImGui::SameLine();
-        std::vector<std::string_view> gpus = modelled_gpus();
+        std::vector<std::string_view> gpus = modeled_gpus();
         gpus.insert(gpus.begin(), "model a GPU");
         ImGui::SetNextItemWidth(116);
         const auto chosen = widgets.combo("model", gpus, 0);
         widgets.help(
-            "adds cycles modelled for a GPU that this machine need not have: shader invocations times the throughput that Mesa's "
+            "adds cycles modeled for a GPU that this machine need not have: shader invocations times the throughput that Mesa's "
             "compiler states");
         ImGui::SameLine();
         if (widgets.button("copy", "Copy CSV")) ImGui::SetClipboardText(as_csv(study->second.report).c_str());
@@ -218,7 +222,7 @@ private:
                      &palette().dim);
         widgets.help(fmt::format(
             "measured on {}{}", report.device.name,
-            report.device.software ? "\na CPU renders here: times rank methods on this driver only, they model no GPU" : ""));
+            report.device.software ? "\na CPU renders here: times rank techniques on this driver only, they model no GPU" : ""));
         if (report_base(model.request(), report.stage) != study.base)
             widgets.text("stale", "measured before other stages were changed: measure again", &palette().warning);
     }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "passes/technique.h"
 #include "ui/frame/counter_rows.h"
 #include "ui/panel.h"
 #include "ui/widgets/find_text.h"

@@ -1,7 +1,9 @@
-// The frame: a timeline of what was measured; stages in order, their acts and steps, what each took, holds and does; what was
+// The frame: a timeline of what was measured; stages in order, their passes and steps, what each took, holds and does; what was
 // left out and why.
 #include <algorithm>
 
+#include "passes/frame_images.h"
+#include "passes/stages.h"
 #include "replay/plural.h"
 #include "ui/frame/frame_columns.h"
 #include "ui/frame/timeline.h"
@@ -39,7 +41,7 @@ public:
         draw_head(widgets, frame);
         if (times && timeline_.ms > 0) draw_measured(model, widgets, frame);
         ImGui::BeginChild("tree");
-        // While something is looked for every act is open; afterwards they are again as they were.
+        // While something is looked for every pass is open; afterwards they are again as they were.
         ImGui::PushID(find_.empty() ? "all" : "found");
         draw_table(model, widgets, frame);
         ImGui::PopID();
@@ -90,9 +92,9 @@ private:
         tried_ = services.replayer.made_of(request);
         timing_ = services.replayer.start<FrameTimes>(
             [request, shaders = tried_->shaders](Session& session, Progress& progress) -> Result<FrameTimes> {
-                if (!progress.at(0, "measuring")) return fail_unnamed(Fault::usage, "stopped");
+                if (!progress.at(0, "measuring")) return fail(Fault::stopped, "session.stopped", "stopped");
                 return session.time(std::span(&request, 1), repeats).and_then([&](auto& runs) -> Result<FrameTimes> {
-                    if (runs.front().frame_ms->repeats < repeats) return fail_unnamed(Fault::stopped, "stopped");
+                    if (runs.front().frame_ms->repeats < repeats) return fail(Fault::stopped, "session.stopped", "stopped");
                     return FrameTimes{request, std::move(runs.front()), shaders};
                 });
             });
@@ -193,44 +195,44 @@ private:
         ImGui::TableSetupColumn("step", ImGuiTableColumnFlags_WidthStretch | ImGuiTableColumnFlags_IndentEnable);
         columns_.set_up(frame);
         ImGui::TableHeadersRow();
-        for (const FrameAct& act : frame.rows.acts) draw_act(model, widgets, frame, act);
+        for (const FramePass& pass : frame.rows.passes) draw_pass(model, widgets, frame, pass);
         ImGui::EndTable();
     }
 
-    void draw_act(Model& model, Widgets& widgets, const ShownFrame& frame, const FrameAct& act) {
-        const auto in_act = std::span(frame.replay.steps).subspan(act.first, act.end - act.first);
-        if (std::ranges::none_of(in_act, [&](const PlanRow& row) { return matches(row); })) return;
+    void draw_pass(Model& model, Widgets& widgets, const ShownFrame& frame, const FramePass& pass) {
+        const auto in_pass = std::span(frame.replay.steps).subspan(pass.first, pass.end - pass.first);
+        if (std::ranges::none_of(in_pass, [&](const PlanRow& row) { return matches(row); })) return;
         ImGui::TableNextRow();
-        draw_mark(widgets, act);
-        columns_.draw_act(widgets, frame, act, first_beside);
+        draw_mark(widgets, pass);
+        columns_.draw_pass(widgets, frame, pass, first_beside);
         ImGui::TableSetColumnIndex(1);
-        const bool has_selected = model.step && act.first <= *model.step && *model.step < act.end;
+        const bool has_selected = model.step && pass.first <= *model.step && *model.step < pass.end;
         const bool comes_into_sight = has_selected && model.step != step_seen_;
         if (open_all_) ImGui::SetNextItemOpen(*open_all_);
         else if (has_selected && open_selected_) ImGui::SetNextItemOpen(*open_selected_);
         else if (comes_into_sight || !find_.empty()) ImGui::SetNextItemOpen(true);
-        ImGui::PushStyleColor(ImGuiCol_Text, color_of_stage(static_cast<std::size_t>(act.scope.stage)));
-        const Widgets::TreeRow row = widgets.tree(text_of(act.scope), false, 0, face_of(act.scope));
+        ImGui::PushStyleColor(ImGuiCol_Text, color_of_stage(static_cast<std::size_t>(pass.scope.stage)));
+        const Widgets::TreeRow row = widgets.tree(text_of(pass.scope), false, 0, face_of(pass.scope));
         ImGui::PopStyleColor();
-        widgets.help(fmt::format("{}\n{}, {}, {}", text_of(act.scope), plural(act.end - act.first, "step"),
-                                 plural(act.draws, "draw"), plural(act.barriers, "barrier")));
+        widgets.help(fmt::format("{}\n{}, {}, {}", text_of(pass.scope), plural(pass.end - pass.first, "step"),
+                                 plural(pass.draws, "draw"), plural(pass.barriers, "barrier")));
         if (row.open) {
-            for (std::size_t i = act.first; i < act.end; ++i)
+            for (std::size_t i = pass.first; i < pass.end; ++i)
                 if (matches(frame.replay.steps[i])) draw_step(model, widgets, frame, i);
             widgets.tree_end();
         }
-        if (row.clicked) select_here(model, frame.replay, act.end - 1);
+        if (row.clicked) select_here(model, frame.replay, pass.end - 1);
     }
 
-    static void draw_mark(Widgets& widgets, const FrameAct& act) {
+    static void draw_mark(Widgets& widgets, const FramePass& pass) {
         ImGui::TableSetColumnIndex(0);
         const ImVec2 at = ImGui::GetCursorScreenPos();
         const float height = ImGui::GetTextLineHeight();
-        widgets.canvas(fmt::format("{} is", text_of(act.scope)), {mark_width, height}, act.is_executed ? "executed" : "kept");
-        widgets.help(act.is_executed ? "executed in the latest replay" : "kept from an earlier replay");
+        widgets.canvas(fmt::format("{} is", text_of(pass.scope)), {mark_width, height}, pass.is_executed ? "executed" : "kept");
+        widgets.help(pass.is_executed ? "executed in the latest replay" : "kept from an earlier replay");
         const ImVec2 middle(at.x + mark_width / 2, at.y + height / 2);
         ImDrawList& list = *ImGui::GetWindowDrawList();
-        if (act.is_executed) list.AddCircleFilled(middle, 3.5f, packed(palette().good));
+        if (pass.is_executed) list.AddCircleFilled(middle, 3.5f, packed(palette().good));
         else list.AddCircle(middle, 3.2f, packed(palette().dim), 0, 1.2f);
     }
 

@@ -1,4 +1,4 @@
-// The pinned pixel through the frame: what every step left of it, its transparent fragments, what methods make of them, what
+// The pinned pixel through the frame: what every step left of it, its transparent fragments, what techniques make of them, what
 // techniques know of its tile.
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ struct PartRow {
 constexpr PartRow part_rows[] = {
     {"Steps", "the pixel after every step that writes it", pixel_steps_part},
     {"Fragments", "its transparent fragments in the order of depth", pixel_fragments_part},
-    {"Probe", "transmittance over depth: any set of methods over the exact steps", pixel_probe_part},
+    {"Probe", "transmittance over depth: any set of techniques over the exact steps", pixel_probe_part},
     {"Tile", "views of a technique at the pixel, and what its tables say of its tile", pixel_inside_part},
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "passes/graph/describe.h"
+#include "passes/stages.h"
 #include "replay/plural.h"
 #include "ui/panel.h"
 #include "ui/plan/plan_chart.h"

@@ -1,6 +1,10 @@
 // How each stage is done: its technique, a widget per parameter, what was recorded and the way back to it.
 #include <algorithm>
 
+#include "passes/registry.h"
+#include "passes/scene/scene_facts.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "ui/panel.h"
 #include "ui/widgets/param_widget.h"
 #include "ui/window/theme.h"

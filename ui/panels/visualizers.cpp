@@ -2,6 +2,8 @@
 // that belong to it.
 #include <algorithm>
 
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "ui/panel.h"
 #include "ui/picture/look_bytes.h"
 #include "ui/picture/view_readouts.h"
@@ -117,7 +119,7 @@ private:
         stale->error.clear();
         stale->job = services.replayer.start<TechniqueViews>(
             [now, technique = stale->technique](Session& session, ui::Progress& progress) -> Result<TechniqueViews> {
-                if (!progress.at(0, std::string(technique->name))) return fail_unnamed(Fault::usage, "stopped");
+                if (!progress.at(0, std::string(technique->name))) return fail(Fault::stopped, "session.stopped", "stopped");
                 return views_of(session, now.request, *technique);
             });
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/scene/scene_facts.h"
 #include "ui/window/keys.h"
 
 namespace strata::ui {

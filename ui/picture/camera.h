@@ -6,7 +6,7 @@
 
 namespace strata::ui {
 
-/// How the eye moves within a frame of the window, in its own view: metres, and radians of looking around.
+/// How the eye moves within a frame of the window, in its own view: meters, and radians of looking around.
 struct Flight {
     double ahead = 0, right = 0, up = 0;
     double turn_right = 0, turn_up = 0;
@@ -33,8 +33,8 @@ private:
     Flight flight() const;
 
     Hold hold_ = Hold::none;
-    double speed_ = 2;     ///< metres per second
-    double distance_ = 5;  ///< metres to what is orbited
+    double speed_ = 2;     ///< meters per second
+    double distance_ = 5;  ///< meters to what is orbited
 };
 
 }  // namespace strata::ui

@@ -53,12 +53,12 @@ std::array<std::byte, 3> shown_bytes(const Look& look, const glm::dvec4& texel) 
         case Channels::false_color:
             return turbo(std::clamp(scaled(texel.x), 0.0, 1.0));
         case Channels::luminance: {
-            const std::byte grey = encoded(luminance(glm::dvec3(texel)));
-            return {grey, grey, grey};
+            const std::byte gray = encoded(luminance(glm::dvec3(texel)));
+            return {gray, gray, gray};
         }
         default: {
-            const std::byte grey = encoded(texel[channel_of(look.channels)]);
-            return {grey, grey, grey};
+            const std::byte gray = encoded(texel[channel_of(look.channels)]);
+            return {gray, gray, gray};
         }
     }
 }

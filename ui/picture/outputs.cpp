@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "passes/frame_images.h"
+#include "passes/technique.h"
 
 namespace strata::ui {
 

@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "passes/frame_images.h"
+#include "passes/registry.h"
+#include "passes/technique.h"
 #include "replay/difference/picture.h"
 #include "ui/window/theme.h"
 

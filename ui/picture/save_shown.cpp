@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capture_format/container/whole_file.h"
+#include "capture_format/reader.h"
 #include "replay/json_text.h"
 #include "ui/picture/look_bytes.h"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "passes/technique.h"
 #include "passes/view_params.h"
 #include "replay/difference/compare_images.h"
 #include "replay/plural.h"

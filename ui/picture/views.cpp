@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "passes/frame_images.h"
+#include "passes/technique.h"
 #include "ui/window/theme.h"
 
 namespace strata::ui {

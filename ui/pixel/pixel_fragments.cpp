@@ -1,18 +1,20 @@
 #include "ui/pixel/pixel_fragments.h"
 
+#include "capture_format/frame.h"
 #include "passes/transparency/sample_blend.h"
 #include "replay/session/drawn_by.h"
 
 namespace strata::ui {
 
 Result<std::vector<SampleFragments>> fragments_of(Session& session, Progress& progress, const PixelQuestion& question) {
-    if (!progress.at(0, "the frame's transparent fragments, in double")) return fail_unnamed(Fault::usage, "stopped");
+    if (!progress.at(0, "the frame's transparent fragments, in double"))
+        return fail(Fault::stopped, "session.stopped", "stopped");
     const auto lists = session.transparent_fragments(question.request);
     if (!lists) return lists.error();
     const glm::uvec2 at = question.pixel;
     if (at.x >= (*lists)->width() || at.y >= (*lists)->height())
-        return fail_unnamed(Fault::usage, "the frame is {} x {}; there is no pixel {}, {}", (*lists)->width(), (*lists)->height(),
-                            at.x, at.y);
+        return fail(Fault::usage, "frame.no_pixel", "the frame is {width} x {height}; there is no pixel {x}, {y}",
+                    (*lists)->width(), (*lists)->height(), at.x, at.y);
     std::vector<SampleFragments> samples((*lists)->samples());
     for (std::uint32_t sample = 0; sample < samples.size(); ++sample) {
         SampleFragments& made = samples[sample];

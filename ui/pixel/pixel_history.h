@@ -29,7 +29,7 @@ struct PixelStep {
 
 std::vector<PixelStep> history_of(std::span<const StepImages>);
 
-/// As many numbers as the image has channels; of depth the metres, too, that `near` of the view makes of it.
+/// As many numbers as the image has channels; of depth the meters, too, that `near` of the view makes of it.
 std::string text_of(const PixelValue&, double near);
 
 }  // namespace strata::ui

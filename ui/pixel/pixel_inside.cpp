@@ -3,6 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "passes/frame_images.h"
+#include "passes/technique.h"
+
 namespace strata::ui {
 namespace {
 
@@ -67,12 +73,12 @@ Result<void> read_views(Session& session, Progress& progress, const InsideQuesti
     const auto count = static_cast<double>(views.size() + question.technique->tables.size());
     for (std::size_t i = 0; i < views.size(); ++i) {
         const std::string output = fmt::format("{}:{}", question.technique->name, views[i].name);
-        if (!progress.at(static_cast<double>(i) / count, output)) return fail_unnamed(Fault::usage, "stopped");
+        if (!progress.at(static_cast<double>(i) / count, output)) return fail(Fault::stopped, "session.stopped", "stopped");
         const auto run = run_for(session, question.request, output);
         if (!run) return run.error();
         if (question.pixel.x >= run->width || question.pixel.y >= run->height)
-            return fail_unnamed(Fault::usage, "the frame is {} x {}; there is no pixel {}, {}", run->width, run->height,
-                                question.pixel.x, question.pixel.y);
+            return fail(Fault::usage, "frame.no_pixel", "the frame is {width} x {height}; there is no pixel {x}, {y}", run->width,
+                        run->height, question.pixel.x, question.pixel.y);
         const auto image = run->images.find(output);
         if (image == run->images.end()) continue;
         const glm::dvec4 value = texel(image->second, question.pixel.x, question.pixel.y);
@@ -97,7 +103,7 @@ Result<void> read_tables(Session& session, Progress& progress, const InsideQuest
         if (!key) continue;
         const std::string output = fmt::format("{}:{}", technique.name, table.name);
         if (!progress.at(static_cast<double>(technique.views.size() + i) / count, output))
-            return fail_unnamed(Fault::usage, "stopped");
+            return fail(Fault::stopped, "session.stopped", "stopped");
         const auto run = run_for(session, question.request, output);
         if (!run) return run.error();
         const auto numbers = run->tables.find(output);

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "passes/technique.h"
 #include "ui/replayer/live_query.h"
 
 namespace strata::ui {

@@ -1,6 +1,7 @@
 // What the techniques in use know of the pinned pixel and of its tile.
 #include <algorithm>
 
+#include "passes/technique.h"
 #include "ui/pixel/pixel_inside.h"
 #include "ui/pixel/pixel_part.h"
 #include "ui/window/theme.h"

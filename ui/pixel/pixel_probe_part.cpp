@@ -1,10 +1,13 @@
-// T(z) of any set of methods over the exact steps of the pinned pixel.
+// T(z) of any set of techniques over the exact steps of the pinned pixel.
 #include <algorithm>
 #include <array>
 #include <set>
 
+#include "passes/registry.h"
+#include "passes/technique.h"
 #include "replay/plural.h"
 #include "replay/probe/order.h"
+#include "replay/probe/probe_columns.h"
 #include "ui/pixel/pixel_part.h"
 #include "ui/pixel/probe_series.h"
 #include "ui/window/theme.h"
@@ -12,11 +15,11 @@
 namespace strata::ui {
 namespace {
 
-// Of the list of methods six rows are seen at a time: at 800 pixels plot and figures fit below it.
+// Of the list of techniques six rows are seen at a time: at 800 pixels plot and figures fit below it.
 constexpr float list_height = 156, least_plot = 190, most_plot = 420;
 
 std::string help_of(const ProbeCurve& curve) {
-    std::string text = curve.method;
+    std::string text = curve.variant;
     if (!curve.slices.empty()) {
         const auto [thinnest, thickest] =
             std::ranges::minmax(curve.slices, {}, [](const DepthSpan& slice) { return slice.to - slice.from; });
@@ -34,8 +37,8 @@ public:
         const auto scope = widgets.in("probe");
         draw_options(model, widgets, replay);
         const ProbeQuestion question = question_of(model, replay);
-        if (question.methods.empty()) {
-            widgets.text("state", "no method is chosen", &palette().dim);
+        if (question.variants.empty()) {
+            widgets.text("state", "no technique is chosen", &palette().dim);
             return;
         }
         ask(services, question);
@@ -45,7 +48,7 @@ public:
         const auto updating = widgets.updating(updating_word(asked_, question, model, services));
         if (probe->undecided) widgets.text("undecided", "rounding decides which fragments exist here", &palette().warning);
         draw_curves(widgets, *probe);
-        draw_figures(widgets, *probe);
+        draw_metrics(widgets, *probe);
     }
     void withdraw() override { asked_.withdraw(); }
     bool is_busy() const override { return asked_.progress() != nullptr; }
@@ -55,20 +58,20 @@ private:
         ProbeQuestion question{with_display_alone(replay.request), glm::uvec2(*model.pin)};
         question.sample = std::min(sample_, replay.run.samples - 1);
         question.axis = logarithmic_ ? DepthAxis::logarithmic : DepthAxis::linear;
-        const std::string now = method_of(model.choices().at(Stage::transparency));
-        if (as_chosen_) question.methods.push_back(now);
-        for (const std::string& method : methods_)
-            if (!as_chosen_ || method != now) question.methods.push_back(method);
+        const std::string now = variant_of(model.choices().at(Stage::transparency));
+        if (as_chosen_) question.variants.push_back(now);
+        for (const std::string& variant : variants_)
+            if (!as_chosen_ || variant != now) question.variants.push_back(variant);
         return question;
     }
 
-    /// Curves of the same fragments are kept, so that one method more costs one method.
+    /// Curves of the same fragments are kept, so that one technique more costs one technique.
     void ask(Services& services, const ProbeQuestion& question) {
         std::optional<Probe> known;
         if (const ProbeQuestion* before = asked_.answered(); before && asked_.has_shaders_of(services.replayer)) {
             ProbeQuestion same = *before;
-            same.methods = question.methods;
-            if (same == question && before->methods != question.methods) known = *asked_.answer();
+            same.variants = question.variants;
+            if (same == question && before->variants != question.variants) known = *asked_.answer();
         }
         asked_.ask(services.replayer, question,
                    [known = std::move(known)](Session& session, Progress& progress, const ProbeQuestion& asked) {
@@ -103,39 +106,39 @@ private:
             ImGui::SameLine();
             ImGui::TextDisabled("sample");
         }
-        draw_methods(model, widgets);
+        draw_variants(model, widgets);
     }
 
-    void draw_methods(const Model& model, Widgets& widgets) {
-        if (!widgets.tree("methods", false).open) return;
-        const std::string now = short_method(method_of(model.choices().at(Stage::transparency)));
+    void draw_variants(const Model& model, Widgets& widgets) {
+        if (!widgets.tree("techniques", false).open) return;
+        const std::string now = short_variant(variant_of(model.choices().at(Stage::transparency)));
         if (const auto set = widgets.checkbox("as chosen", as_chosen_)) as_chosen_ = *set;
         widgets.help(now);
         ImGui::SameLine();
         const std::vector<const Technique*> known = techniques_of(Stage::transparency);
         if (widgets.button("all"))
-            for (const Technique* technique : known) methods_.emplace(technique->name);
+            for (const Technique* technique : known) variants_.emplace(technique->name);
         widgets.help("every technique of the stage as it is by default");
         ImGui::SameLine();
-        if (widgets.button("none")) methods_.clear();
+        if (widgets.button("none")) variants_.clear();
         ImGui::BeginChild("list", {0, list_height}, true);
-        for (const Technique* technique : known) draw_method(widgets, std::string(technique->name), technique->summary);
+        for (const Technique* technique : known) draw_variant(widgets, std::string(technique->name), technique->summary);
         if (widgets.tree("other settings", false).open) {
             for (const Technique* technique : known)
-                for (const std::string_view point : technique->points)
-                    draw_method(widgets, fmt::format("{} {}", technique->name, point), technique->summary);
+                for (const std::string_view point : technique->variants)
+                    draw_variant(widgets, fmt::format("{} {}", technique->name, point), technique->summary);
             widgets.tree_end();
         }
         ImGui::EndChild();
         widgets.tree_end();
     }
 
-    void draw_method(Widgets& widgets, const std::string& method, std::string_view help) {
-        const auto set = widgets.checkbox(short_method(method), methods_.contains(method));
+    void draw_variant(Widgets& widgets, const std::string& variant, std::string_view help) {
+        const auto set = widgets.checkbox(short_variant(variant), variants_.contains(variant));
         widgets.help(help);
         if (!set) return;
-        if (*set) methods_.insert(method);
-        else methods_.erase(method);
+        if (*set) variants_.insert(variant);
+        else variants_.erase(variant);
     }
 
     void draw_curves(Widgets& widgets, const Probe& probe) {
@@ -152,52 +155,57 @@ private:
         draw_plot(widgets, {"plot", depth, transmittance, {ImGui::GetContentRegionAvail().x, height}}, series_, view_);
     }
 
-    static void draw_figures(Widgets& widgets, const Probe& probe) {
-        const auto scope = widgets.in("figures");
+    static void draw_metrics(Widgets& widgets, const Probe& probe) {
+        const auto scope = widgets.in("metrics");
         constexpr ImGuiTableFlags flags =
             ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollX | ImGuiTableFlags_NoPadOuterX;
         // A table that scrolls sideways needs its height said: a row each and the head.
         const float rows = static_cast<float>(probe.curves.size() + 2);
         if (!ImGui::BeginTable("errors", 6, flags, {0, rows * ImGui::GetTextLineHeightWithSpacing() + 14})) return;
-        for (const char* column : {"method", "L1 ln z", "L1 z", "off steps", "at events", "behind"})
-            ImGui::TableSetupColumn(column);
+        const std::vector<const ProbeCurve*> curves = best_first(probe);
+        const Sheet sheet = variants_of(curves);
+        ImGui::TableSetupColumn("variant");
+        for (const Described& is : sheet.columns)
+            if ((is.shown & in_window) != 0) ImGui::TableSetupColumn(window_title(is).c_str());
         ImGui::TableHeadersRow();
-        std::size_t drawn = 0;
-        for (const ProbeCurve* curve : best_first(probe)) draw_row(widgets, probe, *curve, drawn++);
+        for (std::size_t i = 0; i < curves.size(); ++i) draw_row(widgets, probe, *curves[i], {sheet, i});
         ImGui::EndTable();
         ImGui::PushTextWrapPos(0);
-        widgets.text("meaning",
-                     fmt::format("Errors of T from {:.4g} to {:.4g} m, best first. L1: mean over the axis. Off steps: largest, "
-                                 "at least 1% of the axis away from every step. At events: mean over fragments, weighted by what "
-                                 "each hides. Behind: error of T behind all fragments.",
-                                 probe.from, probe.to),
-                     &palette().dim);
+        widgets.text(
+            "meaning",
+            fmt::format("Errors of T from {:.4g} to {:.4g} m, best first. L1: mean over the axis. Off steps: largest, "
+                        "at least 1% of the axis away from every step. At fragments: mean over fragments, weighted by what "
+                        "each hides. Behind: error of T behind all fragments.",
+                        probe.from, probe.to),
+            &palette().dim);
         ImGui::PopTextWrapPos();
     }
 
-    static void draw_row(Widgets& widgets, const Probe& probe, const ProbeCurve& curve, std::size_t place) {
-        const auto scope = widgets.in(short_method(curve.method));
+    /// The figures of a curve: a row of the probe's sheet.
+    struct FigureRow {
+        const Sheet& sheet;
+        std::size_t place = 0;
+    };
+
+    static void draw_row(Widgets& widgets, const Probe& probe, const ProbeCurve& curve, const FigureRow& row) {
+        const auto scope = widgets.in(short_variant(curve.variant));
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
-        const ImVec4 color = color_of_method(static_cast<std::size_t>(&curve - probe.curves.data()));
-        widgets.text("method", fmt::format("{} {}", place + 1, short_method(curve.method)), &color);
+        const ImVec4 color = color_of_variant(static_cast<std::size_t>(&curve - probe.curves.data()));
+        widgets.text("variant", fmt::format("{} {}", row.place + 1, short_variant(curve.variant)), &color);
         widgets.help(help_of(curve));
-        const auto cell = [&](std::string_view label, const std::string& text) {
-            ImGui::TableNextColumn();
-            widgets.text(label, text);
-        };
         if (!curve.not_supported.empty()) {
             ImGui::TableNextColumn();
             widgets.text("not supported", "not supported", &palette().warning);
             widgets.help(curve.not_supported);
             return;
         }
-        const ProbeFigures& figures = curve.figures;
-        cell("L1 ln z", fmt::format("{:.5f}", figures.l1_logarithmic));
-        cell("L1 z", fmt::format("{:.5f}", figures.l1_linear));
-        cell("off steps", figures.worst_off_steps ? fmt::format("{:.5f}", *figures.worst_off_steps) : "\xe2\x80\x93");
-        cell("at events", fmt::format("{:.5f}", figures.event_weighted));
-        cell("behind", fmt::format("{:+.5f}", figures.total));
+        for (std::size_t i = 0; i < row.sheet.columns.size(); ++i) {
+            const Described& is = row.sheet.columns[i];
+            if ((is.shown & in_window) == 0) continue;
+            ImGui::TableNextColumn();
+            widgets.text(window_title(is), window_cell(is, row.sheet.rows[row.place].values[i]).text);
+        }
     }
 
     /// What the series were made of.
@@ -212,7 +220,7 @@ private:
     std::vector<PlotSeries> series_;
     Look drawn_;
     PlotView view_;
-    std::set<std::string> methods_;
+    std::set<std::string> variants_;
     bool as_chosen_ = true, logarithmic_ = true;
     std::uint32_t sample_ = 0;
     ProbeQuantity quantity_ = ProbeQuantity::transmittance;

@@ -40,7 +40,7 @@ public:
         const PixelQuestion asked{replay.request, glm::uvec2(*model.pin)};
         asked_.ask(services.replayer, asked,
                    [](Session& session, Progress& progress, const PixelQuestion& question) -> Result<std::vector<PixelStep>> {
-                       if (!progress.at(0, "the frame, step by step")) return fail_unnamed(Fault::usage, "stopped");
+                       if (!progress.at(0, "the frame, step by step")) return fail(Fault::stopped, "session.stopped", "stopped");
                        return session.pixel_steps(question.request, question.pixel).and_then([&](auto& steps) {
                            return history_of(steps);
                        });
@@ -100,7 +100,7 @@ private:
         }
         const auto scope = widgets.in(label);
         ImGui::TableNextColumn();
-        widgets.text("act", text_of(step.scope), &palette().dim);
+        widgets.text("pass", text_of(step.scope), &palette().dim);
         for (const PixelValue& value : step.values)
             if (is_shown(step, value) && value.layer < most_layers) draw_value(widgets, value, replay.frame.bare.view);
     }

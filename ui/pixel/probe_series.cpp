@@ -3,21 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "passes/technique.h"
 #include "ui/window/theme.h"
 
 namespace strata::ui {
 namespace {
 
-/// The stack of a pixel as a probe gives it back, for further methods: the frame is neither loaded nor rasterized again.
+/// The stack of a pixel as a probe gives it back, for further techniques: the frame is neither loaded nor rasterized again.
 ProbedStack stack_of(const Probe& probe, std::uint64_t seed) {
     ProbedStack stack{probe.fragments, probe.nearest, probe.farthest, seed};
     std::ranges::sort(stack.fragments, {}, &Fragment::submission);
     return stack;
 }
 
-const ProbeCurve* curve_of(const std::optional<Probe>& probe, const std::string& method) {
+const ProbeCurve* curve_of(const std::optional<Probe>& probe, const std::string& variant) {
     if (!probe) return nullptr;
-    const auto found = std::ranges::find(probe->curves, method, &ProbeCurve::method);
+    const auto found = std::ranges::find(probe->curves, variant, &ProbeCurve::variant);
     return found == probe->curves.end() ? nullptr : &*found;
 }
 
@@ -55,15 +58,15 @@ Result<Probe> probe_each(Session& session, Progress& progress, const ProbeQuesti
     std::optional<Probe> made = known;
     if (made) made->curves.clear();
     std::optional<std::uint64_t> seed;
-    for (std::size_t i = 0; i < question.methods.size(); ++i) {
-        const std::string& method = question.methods[i];
-        if (const ProbeCurve* curve = curve_of(known, method)) {
+    for (std::size_t i = 0; i < question.variants.size(); ++i) {
+        const std::string& variant = question.variants[i];
+        if (const ProbeCurve* curve = curve_of(known, variant)) {
             made->curves.push_back(*curve);
             continue;
         }
-        const double share = static_cast<double>(i) / static_cast<double>(question.methods.size());
-        if (!progress.at(share, short_method(method))) return fail_unnamed(Fault::usage, "stopped");
-        const ProbeOptions options{.methods = {method}, .axis = question.axis};
+        const double share = static_cast<double>(i) / static_cast<double>(question.variants.size());
+        if (!progress.at(share, short_variant(variant))) return fail(Fault::stopped, "session.stopped", "stopped");
+        const ProbeOptions options{.variants = {variant}, .axis = question.axis};
         if (!made) {
             auto first = probe(session, question.request, at, options);
             if (!first) return first.error();
@@ -88,7 +91,7 @@ std::vector<PlotSeries> series_of(const Probe& probe, ProbeQuantity quantity, Pr
     for (std::size_t m = 0; m < probe.curves.size(); ++m) {
         const ProbeCurve& curve = probe.curves[m];
         if (!curve.not_supported.empty()) continue;
-        PlotSeries& series = all.emplace_back(PlotSeries{.label = short_method(curve.method), .color = color_of_method(m)});
+        PlotSeries& series = all.emplace_back(PlotSeries{.label = short_variant(curve.variant), .color = color_of_variant(m)});
         for (std::size_t i = 0; i < probe.depths.size(); ++i) {
             const double exact = in_channel(probe.exact[i], channel), got = in_channel(curve.through[i], channel);
             series.points.push_back({probe.depths[i], quantity == ProbeQuantity::error ? got - exact : got});
@@ -98,17 +101,17 @@ std::vector<PlotSeries> series_of(const Probe& probe, ProbeQuantity quantity, Pr
     return all;
 }
 
-std::string method_of(const Choice& choice) {
-    std::string method(choice.technique->name);
+std::string variant_of(const Choice& choice) {
+    std::string variant(choice.technique->name);
     const std::vector<std::string> now = choice.settings.lines(), defaults = Settings(choice.technique->params).lines();
     for (std::size_t i = 0; i < now.size(); ++i)
-        if (now[i] != defaults[i]) method += fmt::format(" {}", now[i]);
-    return method;
+        if (now[i] != defaults[i]) variant += fmt::format(" {}", now[i]);
+    return variant;
 }
 
-std::string short_method(std::string_view method) { return std::string(method.substr(method.find('/') + 1)); }
+std::string short_variant(std::string_view variant) { return std::string(variant.substr(variant.find('/') + 1)); }
 
-ImVec4 color_of_method(std::size_t place) {
+ImVec4 color_of_variant(std::size_t place) {
     // A fifth of a turn ahead of the stages' colors, whose first would be the accent again.
     ImVec4 color(0, 0, 0, 1);
     ImGui::ColorConvertHSVtoRGB(std::fmod(.08f + static_cast<float>(place) * .381966f, 1.0f), .62f, .95f, color.x, color.y,

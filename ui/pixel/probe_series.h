@@ -1,4 +1,4 @@
-// The transmittance probe for a plot: T(z) of any set of methods over the exact steps of a pixel's fragments.
+// The transmittance probe for a plot: T(z) of any set of techniques over the exact steps of a pixel's fragments.
 #pragma once
 
 #include <optional>
@@ -16,11 +16,12 @@ struct ProbeQuestion {
     glm::uvec2 pixel{0};
     std::uint32_t sample = 0;
     DepthAxis axis = DepthAxis::logarithmic;
-    std::vector<std::string> methods;  ///< as ProbeOptions::methods: none twice, at least one
+    std::vector<std::string> variants;  ///< as ProbeOptions::techniques: none twice, at least one
     friend bool operator==(const ProbeQuestion&, const ProbeQuestion&) = default;
 };
 
-/// One method after the other. `known` is an answer to the same question with other methods: their curves are not made again.
+/// One technique after the other. `known` is an answer to the same question with other techniques: their curves are not made
+/// again.
 Result<Probe> probe_each(Session&, Progress&, const ProbeQuestion&, const std::optional<Probe>& known);
 
 enum class ProbeQuantity { transmittance, error };
@@ -28,14 +29,15 @@ enum class ProbeChannel { mean, red, green, blue };
 
 double in_channel(const glm::dvec3&, ProbeChannel);
 
-/// The exact steps first, then a line per method that has a curve; of errors the methods alone. Every point says what T is there.
+/// The exact steps first, then a line per technique that has a curve; of errors the techniques alone. Every point says what T is
+/// there.
 std::vector<PlotSeries> series_of(const Probe&, ProbeQuantity, ProbeChannel);
 
-/// A technique with those of its settings that are not their defaults, as ProbeOptions::methods takes it.
-std::string method_of(const Choice&);
+/// A technique with those of its settings that are not their defaults, as ProbeOptions::techniques takes it.
+std::string variant_of(const Choice&);
 /// "name key=value", without the stage.
-std::string short_method(std::string_view method);
-/// Of the methods of a probe, by place.
-ImVec4 color_of_method(std::size_t place);
+std::string short_variant(std::string_view variant);
+/// Of the techniques of a probe, by place.
+ImVec4 color_of_variant(std::size_t place);
 
 }  // namespace strata::ui

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "passes/graph/describe.h"
-#include "ui/frame/step_work.h"
+#include "ui/replayer/step_work.h"
 
 namespace strata::ui {
 namespace {

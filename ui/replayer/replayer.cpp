@@ -4,8 +4,11 @@
 
 #include <algorithm>
 
-#include "replay/measure/host_timer.h"
-#include "ui/frame/step_work.h"
+#include "capture_format/reader.h"
+#include "passes/frame_images.h"
+#include "passes/scene/scene_facts.h"
+#include "replay/gpu/host_timer.h"
+#include "ui/replayer/step_work.h"
 
 namespace strata::ui {
 namespace {
@@ -58,8 +61,8 @@ void say_what_the_last_change_executed(Replay& now, const Replay& before) {
     };
     std::erase_if(now.run.steps, was_planned);
     now.run.steps.insert(now.run.steps.begin(), before.run.steps.begin(), before.run.steps.end());
-    now.run.acts_executed = before.run.acts_executed;
-    now.run.acts_from_memo = before.run.acts_from_memo;
+    now.run.passes_executed = before.run.passes_executed;
+    now.run.passes_from_memo = before.run.passes_from_memo;
 }
 
 Result<std::shared_ptr<Replay>> replay(Session& session, const Request& request, const FrameFacts& frame) {
@@ -114,8 +117,8 @@ void Replayer::open() {
 }
 
 Result<std::shared_ptr<Session>> Replayer::begin(Progress& progress, Yields yields) {
-    if (closing_.stop_requested()) return fail_unnamed(Fault::stopped, "the inspector is being closed");
-    if (!session_) return fail_unnamed(Fault::bad_input, "no capture is open");
+    if (closing_.stop_requested()) return fail(Fault::stopped, "session.stopped", "the inspector is being closed");
+    if (!session_) return fail(Fault::bad_input, "inspector.no_capture", "no capture is open");
     progress.resume();
     session_->stop_when(progress.token());
     const std::scoped_lock lock(mutex_);

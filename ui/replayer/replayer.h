@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "capture_format/frame/frame.h"
 #include "replay/session/session.h"
 #include "ui/replayer/work_queue.h"
 

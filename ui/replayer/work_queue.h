@@ -80,8 +80,8 @@ Result<T> within_memory(const std::function<Result<T>()>& compute) {
     try {
         return compute();
     } catch (const std::bad_alloc&) {
-        return fail_unnamed(Fault::device_failed,
-                            "there is not enough memory for this; a smaller frame or fewer samples need less");
+        return fail(Fault::device_failed, "machine.out_of_memory",
+                    "there is not enough memory for this; a smaller frame or fewer samples need less");
     }
 }
 

@@ -6,10 +6,14 @@
 #include <numeric>
 #include <sstream>
 
+#include "capture_format/frame.h"
+#include "passes/registry.h"
+#include "passes/technique.h"
 #include "replay/plural.h"
-#include "replay/report/table.h"
+#include "replay/report/report_columns.h"
 #include "replay/report/variants.h"
 #include "replay/session/choice_text.h"
+#include "replay/tables/table.h"
 #include "ui/window/theme.h"
 
 namespace strata::ui {
@@ -19,62 +23,25 @@ constexpr double worth_a_logarithm = 10;
 
 bool is_measured(const Measurement& row) { return row.accuracy.not_supported.empty(); }
 
-const Measurement* first_measured(const Report& report) {
-    const auto found = std::ranges::find_if(report.rows, is_measured);
-    return found == report.rows.end() ? nullptr : &*found;
-}
-
-std::optional<double> figure_of(const Measurement& row, std::string_view name) {
-    for (const Figure& figure : errors_of(row))
-        if (figure.name == name) return figure.value;
-    return {};
-}
-
-ReportColumn error_column(const Report& report, const Figure& figure) {
-    ReportColumn column{.kind = ReportColumn::Kind::error,
-                        .head = figure.name,
-                        .label = figure.unit.empty() ? figure.name : fmt::format("{} ({})", figure.name, figure.unit),
-                        .is_detail = figure.is_detail};
-    for (const Measurement& row : report.rows) column.values.push_back(figure_of(row, figure.name));
-    return column;
-}
-
-/// A cost that has a spread.
-ReportColumn time_column(const Report& report, std::string head, std::string label,
-                         std::optional<Spread> (*spread_of_row)(const Measurement&)) {
-    ReportColumn column{.kind = ReportColumn::Kind::cost, .head = std::move(head), .label = std::move(label)};
-    for (const Measurement& row : report.rows) {
-        const auto spread = is_measured(row) ? spread_of_row(row) : std::nullopt;
-        column.values.push_back(spread ? std::optional(spread->median) : std::nullopt);
+/// A column of the report's own sheet as the window shows it.
+ReportColumn window_column(const Sheet& sheet, std::size_t index) {
+    const Described& is = sheet.columns[index];
+    const std::string label = is.label.empty() ? is.title : is.label;
+    ReportColumn column{.kind = is.role == Role::cost ? ReportColumn::Kind::cost : ReportColumn::Kind::error,
+                        .head = window_title(is),
+                        .label = label,
+                        .tooltip = window_tooltip(is),
+                        .is_detail = is.is_detail};
+    for (const Sheet::Row& row : sheet.rows) {
+        const CellValue& value = row.values[index];
+        const WindowCell cell = window_cell(is, value);
+        column.values.push_back(cell.sort);
+        column.texts.push_back(cell.text);
+        if (!has_spread(is)) continue;
+        const auto* spread = std::get_if<Spread>(&value);
         column.spreads.push_back(spread ? spread->mad : 0);
     }
     return column;
-}
-
-ReportColumn plain_column(const Report& report, std::string head, std::string label,
-                          std::optional<double> (*value_of_row)(const Measurement&)) {
-    ReportColumn column{.kind = ReportColumn::Kind::cost, .head = std::move(head), .label = std::move(label)};
-    for (const Measurement& row : report.rows) column.values.push_back(is_measured(row) ? value_of_row(row) : std::nullopt);
-    return column;
-}
-
-void add_costs(const Report& report, std::vector<ReportColumn>& columns) {
-    using Row = const Measurement&;
-    columns.push_back(
-        time_column(report, "ms", "ms of the stage", [](Row row) -> std::optional<Spread> { return row.stage_ms; }));
-    if (!report.time_unit.empty())
-        columns.push_back(time_column(report, fmt::format("\xc3\x97 {}", below_stage(report.time_unit)),
-                                      fmt::format("times as long as {}", below_stage(report.time_unit)),
-                                      [](Row row) { return row.time; }));
-    columns.push_back(
-        time_column(report, "frame ms", "ms of the frame", [](Row row) -> std::optional<Spread> { return row.frame_ms; }));
-    columns.back().is_detail = true;
-    columns.push_back(plain_column(report, "bytes/px", "bytes per pixel",
-                                   [](Row row) -> std::optional<double> { return std::round(row.bytes_per_pixel); }));
-    columns.push_back(plain_column(report, "invocations", "shader invocations", [](Row row) {
-        return row.invocations ? std::optional(static_cast<double>(*row.invocations)) : std::nullopt;
-    }));
-    columns.back().is_detail = true;
 }
 
 /// What stands with a point under the mouse.
@@ -113,13 +80,13 @@ struct PlotMaker {
     }
 };
 
-void add_methods(PlotMaker& maker) {
+void add_techniques(PlotMaker& maker) {
     for (const Technique* technique : techniques_of(maker.report.stage)) {
         std::vector<std::size_t> own;
         for (std::size_t i = 0; i < maker.report.rows.size(); ++i)
             if (maker.report.rows[i].technique == technique->name && maker.has_place(i)) own.push_back(i);
         if (own.empty()) continue;
-        maker.begin(below_stage(technique->name), SeriesKind::scatter, color_of_method(technique->name));
+        maker.begin(below_stage(technique->name), SeriesKind::scatter, color_of_technique(technique->name));
         for (const std::size_t row : own) maker.add(row);
     }
 }
@@ -150,8 +117,13 @@ std::vector<ReportColumn> columns_of(const Report& report) {
     std::vector<ReportColumn> columns;
     const Measurement* first = first_measured(report);
     if (!first) return columns;
-    for (const Figure& figure : errors_of(*first)) columns.push_back(error_column(report, figure));
-    add_costs(report, columns);
+    const Sheet sheet = sheet_of(report);
+    for (std::size_t i = 0; i < sheet.columns.size(); ++i)
+        if ((sheet.columns[i].shown & in_window) != 0) columns.push_back(window_column(sheet, i));
+    // Errors, then costs; of these milliseconds first, which are the axis to begin with.
+    std::ranges::stable_sort(columns, {}, [](const ReportColumn& column) {
+        return std::pair(column.kind, column.kind == ReportColumn::Kind::cost && column.head != "ms");
+    });
     std::erase_if(columns, [](const ReportColumn& column) {
         return std::ranges::none_of(column.values, [](const std::optional<double>& value) { return value.has_value(); });
     });
@@ -200,11 +172,7 @@ std::vector<std::size_t> sorted_rows(const ReportColumn& column, SortOrder order
     return rows;
 }
 
-std::string cell_text(const ReportColumn& column, std::size_t row) {
-    if (!column.values[row]) return "\xe2\x80\x93";
-    const std::string text = short_number(*column.values[row]);
-    return column.spreads.empty() ? text : fmt::format("{} \xc2\xb1 {}", text, short_number(column.spreads[row]));
-}
+std::string cell_text(const ReportColumn& column, std::size_t row) { return column.texts[row]; }
 
 std::string name_of(const Measurement& row) { return below_stage(label(row.technique, row.settings)); }
 
@@ -219,7 +187,7 @@ ReportPlot plot_of(const Report& report, const ReportAxes& axes, std::optional<s
     PlotMaker maker{report, axes, front_of(report, axes.error, axes.cost), {}};
     for (std::size_t row = 0; row < report.rows.size(); ++row)
         if (axes.error.size(row) && axes.cost.size(row) && !maker.has_place(row)) ++maker.plot.without_place;
-    add_methods(maker);
+    add_techniques(maker);
     add_front(maker);
     if (now && maker.has_place(*now)) {
         maker.begin("shown now", SeriesKind::scatter, palette().text);
@@ -228,7 +196,7 @@ ReportPlot plot_of(const Report& report, const ReportAxes& axes, std::optional<s
     return std::move(maker.plot);
 }
 
-ImVec4 color_of_method(std::string_view technique) {
+ImVec4 color_of_technique(std::string_view technique) {
     const auto found = find_technique(technique);
     return found ? color_of_stage(index_in_stage(**found)) : palette().dim;
 }

@@ -19,9 +19,11 @@ struct ReportColumn {
     enum class Kind { error, cost } kind = Kind::error;
     std::string head;   ///< over a table: "ms"
     std::string label;  ///< after a number: "ms of the stage", "bias (radiance)"
+    std::string tooltip = {};
     bool is_detail = false;
     std::vector<std::optional<double>> values;  ///< by row; nothing where it was not measured. A bias may be below 0
     std::vector<double> spreads = {};           ///< median absolute deviations by row; empty: it has no spread
+    std::vector<std::string> texts = {};        ///< of the cells, by row
 
     /// What ranks a row: a bias is as bad below 0 as above.
     std::optional<double> size(std::size_t row) const;
@@ -47,12 +49,12 @@ std::vector<std::size_t> sorted_rows(const ReportColumn&, SortOrder);
 
 /// "1.23 +- 0.04" in the signs of the screen; "-" for what was not measured.
 std::string cell_text(const ReportColumn&, std::size_t row);
-/// A row's method and settings, without the stage.
+/// A row's technique and settings, without the stage.
 std::string name_of(const Measurement&);
 
-/// What a plot shows of a report, and which row each of its points is.
+/// What a plot shows of a report, and which row each of its variants is.
 struct ReportPlot {
-    std::vector<PlotSeries> series;  ///< a method each, in the order of the list; then the front, then what is shown now
+    std::vector<PlotSeries> series;  ///< a technique each, in the order of the list; then the front, then what is shown now
     std::vector<std::vector<std::size_t>> rows;
     std::size_t without_place = 0;  ///< rows that a logarithmic axis cannot have: 0
     std::optional<PlotPoint> point_of(std::size_t row) const;
@@ -64,14 +66,14 @@ struct ReportAxes {
 ReportPlot plot_of(const Report&, const ReportAxes&, std::optional<std::size_t> now);
 
 /// The color of a technique among those of its stage.
-ImVec4 color_of_method(std::string_view technique);
+ImVec4 color_of_technique(std::string_view technique);
 
 /// What a person must know of a row beside its numbers.
 struct ReportRemark {
     std::string what, why;
-    bool is_doubt = false;  ///< of the program; else the method cannot do the frame
+    bool is_doubt = false;  ///< of the program; else the technique cannot do the frame
 };
-/// Rows of one method for one reason are one remark.
+/// Rows of one technique for one reason are one remark.
 std::vector<ReportRemark> remarks_of(const Report&);
 
 /// The choices that a report of a stage starts from: those of the other stages. A row says what it measures, not what the stage

@@ -8,7 +8,7 @@ JobOf<Study> start_report(Replayer& replayer, const ReportRequest& wanted, std::
             auto report =
                 make_report(session, wanted, [&](std::string_view what, double done) { progress.at(done, std::string(what)); });
             if (!report) return report.error();
-            if (!report->stopped.empty()) return fail_unnamed(Fault::stopped, "{}", report->stopped);
+            if (!report->stopped.empty()) return fail(Fault::stopped, "session.stopped", "{progress}", report->stopped);
             report->capture_name = capture_name;
             Study study{wanted.base, *std::move(report), {}};
             study.columns = columns_of(study.report);
@@ -17,7 +17,7 @@ JobOf<Study> start_report(Replayer& replayer, const ReportRequest& wanted, std::
         Yields::between_steps);
 }
 
-JobOf<Study> start_modelling(Replayer& replayer, Study study, const GpuModel& model, std::filesystem::path program) {
+JobOf<Study> start_modeling(Replayer& replayer, Study study, const GpuModel& model, std::filesystem::path program) {
     return replayer.start<Study>(
         [study = std::move(study), &model, program = std::move(program)](Session& session, Progress& progress) -> Result<Study> {
             auto costs = model_costs(session, {study.report, study.base, &model, program},

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "ui/replayer/replayer.h"
-#include "ui/report/modelled_costs.h"
+#include "ui/report/modeled_costs.h"
 
 namespace strata::ui {
 
@@ -18,7 +18,7 @@ struct Study {
 };
 
 JobOf<Study> start_report(Replayer&, const ReportRequest&, std::string capture_name);
-/// The same study with the modelled cost of a GPU, which `program` (Model::program) compiles for.
-JobOf<Study> start_modelling(Replayer&, Study, const GpuModel&, std::filesystem::path program);
+/// The same study with the modeled cost of a GPU, which `program` (Model::program) compiles for.
+JobOf<Study> start_modeling(Replayer&, Study, const GpuModel&, std::filesystem::path program);
 
 }  // namespace strata::ui

@@ -60,14 +60,14 @@ void ReportTable::draw_heads(Widgets& widgets, const Columns& columns, const Rep
     widgets.text("front", star, &palette().warning);
     widgets.help("nothing is both more accurate and cheaper, by the two axes");
     ImGui::TableNextColumn();
-    ImGui::TextDisabled("method and settings");
+    ImGui::TextDisabled("technique and settings");
     const std::string label = sorted_by_.empty() ? axes.error.label : sorted_by_;
     for (const ReportColumn* column : columns) {
         ImGui::TableNextColumn();
         const bool sorts = column->label == label;
         const char* arrow = !sorts ? "" : order_ == SortOrder::ascending ? up : down;
         const bool clicked = widgets.selectable(column->head, false, fmt::format("{}{}", column->head, arrow));
-        widgets.help(fmt::format("{}; click sorts", column->label));
+        widgets.help(fmt::format("{}; click sorts", column->tooltip.empty() ? column->label : column->tooltip));
         if (!clicked) continue;
         order_ = sorts && order_ == SortOrder::ascending ? SortOrder::descending : SortOrder::ascending;
         sorted_by_ = column->label;
@@ -82,7 +82,7 @@ bool ReportTable::draw_row(Widgets& widgets, const Study& study, std::size_t row
     widgets.text("front", look.on_front ? star : measured.has_other_truth ? "t" : " ", &palette().warning);
     if (measured.has_other_truth) widgets.help(fmt::format("t: {}", other_truth_note));
     ImGui::TableNextColumn();
-    ImGui::TextColored(color_of_method(measured.technique), "%s", dot);
+    ImGui::TextColored(color_of_technique(measured.technique), "%s", dot);
     ImGui::SameLine();
     const bool clicked = widgets.selectable("apply", look.is_now, name);
     if (ImGui::IsItemHovered()) under_ = row;

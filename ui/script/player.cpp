@@ -9,7 +9,7 @@
 #include "replay/images/image_io.h"
 #include "replay/standard_streams.h"
 #include "ui/script/script.h"
-#include "ui/widgets/widget_tree.h"
+#include "ui/widget_tree.h"
 #include "ui/window/keys.h"
 
 namespace strata::ui {
@@ -61,7 +61,8 @@ Result<void> Player::wait() {
         settled = inspector_->is_settled() ? settled + 1 : 0;
         if (settled == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
         if (std::chrono::steady_clock::now() - begin > patience)
-            return fail_unnamed(Fault::device_failed, "not done after {} minutes", patience.count());
+            return fail(Fault::device_failed, "script.not_settled", "the inspector is still busy after {minutes} minutes",
+                        patience.count());
     }
     return {};
 }
@@ -82,8 +83,9 @@ Result<WidgetRecord> Player::reach(const std::string& path) {
     std::vector<std::string_view> known;
     for (const WidgetRecord& record : widgets.records()) known.push_back(record.path);
     const bool is_there = std::ranges::find(known, path) != known.end();
-    if (is_there) return fail_unnamed(Fault::usage, "'{}' is out of sight", path);
-    return fail_unnamed(Fault::usage, "there is no widget '{}'{}", path, did_you_mean(path, known));
+    if (is_there) return fail(Fault::usage, "script.out_of_sight", "'{widget}' is out of sight", path);
+    return fail(Fault::usage, "script.unknown_widget", "there is no widget '{widget}'{suggestion}", path,
+                did_you_mean(path, known));
 }
 
 Result<void> Player::press_at(ImVec2 at) {
@@ -100,7 +102,7 @@ Result<void> Player::press_at(ImVec2 at) {
 Result<void> Player::click(const std::string& path) {
     const auto widget = reach(path);
     if (!widget) return widget.error();
-    if (!widget->enabled) return fail_unnamed(Fault::usage, "'{}' is disabled", path);
+    if (!widget->enabled) return fail(Fault::usage, "script.disabled", "'{widget}' is disabled", path);
     // A tree's row is clicked on its name, and opened by its arrow.
     const bool is_row = widget->kind == WidgetKind::tree;
     const float x = is_row ? widget->from.x + 30 : (widget->from.x + widget->to.x) / 2;
@@ -115,9 +117,10 @@ Result<void> Player::choose(const std::string& path, const std::string& item) {
 Result<void> Player::drag(const std::string& path, double value) {
     const auto widget = reach(path);
     if (!widget) return widget.error();
-    if (widget->kind != WidgetKind::slider) return fail_unnamed(Fault::usage, "'{}' is no slider", path);
+    if (widget->kind != WidgetKind::slider) return fail(Fault::usage, "script.not_a_slider", "'{widget}' is not a slider", path);
     if (value < widget->low || value > widget->high)
-        return fail_unnamed(Fault::usage, "'{}' goes from {:g} to {:g}, not to {:g}", path, widget->low, widget->high, value);
+        return fail(Fault::usage, "script.out_of_range", "'{widget}' goes from {low:g} to {high:g}, not to {value:g}", path,
+                    widget->low, widget->high, value);
     ImGuiIO& io = ImGui::GetIO();
     const float y = (widget->from.y + widget->to.y) / 2;
     float low = widget->from.x, high = widget->to.x, nearest = low;
@@ -130,7 +133,8 @@ Result<void> Player::drag(const std::string& path, double value) {
         io.MousePos.x = (low + high) / 2;
         if (const auto done = frames(2); !done) return done;
         const auto now = std::ranges::find(inspector_->widgets().records(), path, &WidgetRecord::path);
-        if (now == inspector_->widgets().records().end()) return fail_unnamed(Fault::usage, "'{}' went away", path);
+        if (now == inspector_->widgets().records().end())
+            return fail(Fault::usage, "script.widget_gone", "'{widget}' is no longer shown", path);
         if (std::abs(now->number - value) < off) {
             off = std::abs(now->number - value);
             nearest = io.MousePos.x;
@@ -161,7 +165,7 @@ Result<void> Player::type(const std::string& path, const std::string& text) {
     const auto widget = reach(path);
     if (!widget) return widget.error();
     if (widget->kind != WidgetKind::slider && widget->kind != WidgetKind::input)
-        return fail_unnamed(Fault::usage, "'{}' takes no text", path);
+        return fail(Fault::usage, "script.takes_no_text", "'{widget}' takes no text", path);
     ImGuiIO& io = ImGui::GetIO();
     io.KeyCtrl = widget->kind == WidgetKind::slider;
     if (const auto done = press_at({(widget->from.x + widget->to.x) / 2, (widget->from.y + widget->to.y) / 2}); !done)
@@ -177,7 +181,7 @@ Result<void> Player::type(const std::string& path, const std::string& text) {
 
 Result<void> Player::key(const std::string& name) {
     const auto chord = chord_of(name);
-    if (!chord) return fail_unnamed(Fault::usage, "there is no key '{}'", name);
+    if (!chord) return fail(Fault::usage, "script.unknown_key", "there is no key '{key}'", name);
     ImGuiIO& io = ImGui::GetIO();
     io.KeyCtrl = chord->ctrl;
     io.KeyShift = chord->shift;
@@ -207,10 +211,12 @@ Result<void> Player::expect(const std::string& path, const std::string& text) co
     if (found == records.end()) {
         std::vector<std::string_view> known;
         for (const WidgetRecord& record : records) known.push_back(record.path);
-        return fail_unnamed(Fault::over_tolerance, "there is no widget '{}'{}", path, did_you_mean(path, known));
+        return fail(Fault::over_tolerance, "script.expected_widget_missing", "there is no widget '{widget}'{suggestion}", path,
+                    did_you_mean(path, known));
     }
     if (found->value.find(text) != std::string::npos) return {};
-    return fail_unnamed(Fault::over_tolerance, "'{}' says '{}', not '{}'", path, found->value, text);
+    return fail(Fault::over_tolerance, "script.unexpected_text", "'{widget}' shows '{text}', not '{expected}'", path,
+                found->value, text);
 }
 
 Result<void> Player::shot(const std::filesystem::path& path) {

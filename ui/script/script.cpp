@@ -25,7 +25,8 @@ struct Command {
 Result<double> number(const std::string& word) {
     double value = 0;
     const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (problem != std::errc() || end != word.data() + word.size()) return fail_unnamed(Fault::usage, "'{}' is no number", word);
+    if (problem != std::errc() || end != word.data() + word.size())
+        return fail(Fault::usage, "script.not_a_number", "'{word}' is not a number", word);
     return value;
 }
 
@@ -88,10 +89,13 @@ Result<void> play(Hands& hands, const ScriptLine& line) {
     if (command == std::end(commands)) {
         std::vector<std::string_view> known;
         for (const Command& each : commands) known.push_back(each.name);
-        return fail_unnamed(Fault::usage, "there is no command '{}'{}", line.words[0], did_you_mean(line.words[0], known));
+        return fail(Fault::usage, "script.unknown_command", "there is no command '{command}'{suggestion}", line.words[0],
+                    did_you_mean(line.words[0], known));
     }
     const Words words(line.words.begin() + 1, line.words.end());
-    if (words.size() != command->words) return fail_unnamed(Fault::usage, "it is: {} {}", command->name, command->takes);
+    if (words.size() != command->words)
+        return fail(Fault::usage, "script.argument_count", "'{command}' takes {wanted} arguments, not {given}: {usage}",
+                    command->name, command->words, words.size(), fmt::format("{} {}", command->name, command->takes));
     return command->play(hands, words);
 }
 
@@ -124,7 +128,7 @@ Result<Words> words_of(std::string_view line) {
             words.back() += c;
         }
     }
-    if (quote != 0) return fail_unnamed(Fault::usage, "a quote is not closed");
+    if (quote != 0) return fail(Fault::usage, "script.open_quote", "a quote is not closed");
     return words;
 }
 
@@ -135,7 +139,7 @@ Result<std::vector<ScriptLine>> parse_script(std::string_view text, const std::s
     for (std::size_t number = 1; !text.empty(); ++number) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         auto words = words_of(text.substr(0, end));
-        if (!words) return fail_unnamed(Fault::usage, "{}:{}: {}", file, number, words.error().sentence);
+        if (!words) return within(words.error(), "{file}:{line}", file, number);
         if (!words->empty()) lines.push_back({number, *std::move(words)});
         text.remove_prefix(std::min(end + 1, text.size()));
     }
@@ -146,8 +150,7 @@ Result<void> play(Player& player, const std::vector<ScriptLine>& lines, const st
                   const std::filesystem::path& folder) {
     Hands hands{player, folder};
     for (const ScriptLine& line : lines)
-        if (const auto done = play(hands, line); !done)
-            return fail_unnamed(done.error().fault, "{}:{}: {}", file, line.number, done.error().sentence);
+        if (const auto done = play(hands, line); !done) return within(done.error(), "{file}:{line}", file, line.number);
     return {};
 }
 

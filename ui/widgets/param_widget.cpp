@@ -1,6 +1,9 @@
 #include "ui/widgets/param_widget.h"
 
+#include <fmt/core.h>
 #include <fmt/format.h>
+
+#include "passes/settings.h"
 
 namespace strata::ui {
 

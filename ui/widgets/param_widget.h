@@ -1,8 +1,13 @@
 // A technique's parameter as a widget: wherever one is set, it looks and is clicked the same.
 #pragma once
 
-#include "passes/technique.h"
 #include "ui/widgets/widgets.h"
+
+namespace strata {
+
+struct Param;  // passes/settings.h
+
+}  // namespace strata
 
 namespace strata::ui {
 

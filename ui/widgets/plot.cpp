@@ -47,9 +47,9 @@ std::vector<Tick> logarithmic_ticks(const AxisRange& range, std::size_t most) {
         for (int times = 1; times < 10; ++times) {
             const double value = times * std::pow(10, power);
             if (value < range.low * (1 - 1e-9) || value > range.high * (1 + 1e-9)) continue;
-            const bool labelled = times == 1 && std::fmod(power - low, every) == 0;
-            if (labelled || (every == 1 && high - low <= 6) || times == 1)
-                made.push_back({value, labelled ? fmt::format("{:g}", value) : ""});
+            const bool labeled = times == 1 && std::fmod(power - low, every) == 0;
+            if (labeled || (every == 1 && high - low <= 6) || times == 1)
+                made.push_back({value, labeled ? fmt::format("{:g}", value) : ""});
         }
     return made;
 }

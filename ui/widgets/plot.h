@@ -37,7 +37,7 @@ struct Tick {
     double value = 0;
     std::string label;  ///< empty: a line without a number
 };
-/// Round numbers in the range, at most so many of them labelled: 1, 2 or 5 times a power of ten apart, or the powers of ten
+/// Round numbers in the range, at most so many of them labeled: 1, 2 or 5 times a power of ten apart, or the powers of ten
 /// themselves.
 std::vector<Tick> ticks(const AxisRange&, AxisScale, std::size_t most);
 

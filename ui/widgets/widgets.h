@@ -100,7 +100,7 @@ public:
     };
     TreeRow tree(std::string_view label, bool selected, ImGuiTreeNodeFlags flags = 0, std::string_view face = {});
     void tree_end();
-    /// A name and what it is: "name" in grey, the value beside it.
+    /// A name and what it is: "name" in gray, the value beside it.
     void value(std::string_view label, std::string_view text);
     /// Text that a test can find by its label.
     void text(std::string_view label, std::string_view text, const ImVec4* color = nullptr);

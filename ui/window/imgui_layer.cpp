@@ -9,6 +9,9 @@
 
 #include <xxhash.h>
 
+#include "capture_format/frame/texture.h"
+#include "passes/scene/scene_facts.h"
+#include "passes/stages.h"
 #include "replay/images/image_io.h"
 #include "ui/window/imgui_layer.frag.h"
 #include "ui/window/imgui_layer.shared.h"
@@ -321,7 +324,7 @@ Result<void> Layer::draw(const ImDrawData& data) {
         return {};
     } catch (const vk::SystemError& problem) {
         forget_drawn();
-        return fail_unnamed(Fault::device_failed, "the inspector cannot be drawn: {}", problem.what());
+        return fail(Fault::device_failed, "window.cannot_draw", "the inspector cannot be drawn: {reason}", problem.what());
     }
 }
 
@@ -331,7 +334,8 @@ Result<std::unique_ptr<ImguiLayer>> ImguiLayer::on(std::unique_ptr<LayerDevice> 
     try {
         return std::unique_ptr<ImguiLayer>(std::make_unique<Layer>(std::move(device)));
     } catch (const vk::SystemError& problem) {
-        return fail_unnamed(Fault::device_failed, "the inspector's renderer cannot be made: {}", problem.what());
+        return fail(Fault::device_failed, "window.cannot_make_renderer", "the inspector's renderer cannot be made: {reason}",
+                    problem.what());
     }
 }
 

@@ -9,7 +9,7 @@ namespace strata::ui {
 
 const uint look_widgets = 0u;      // fonts and shapes: a texture times the vertex color
 const uint look_color = 1u;        // red, green and blue
-const uint look_channel = 2u;      // one channel as grey
+const uint look_channel = 2u;      // one channel as gray
 const uint look_luminance = 3u;    // Rec. 709
 const uint look_false_color = 4u;  // one channel from dark blue to dark red
 const uint look_kinds = 5u;

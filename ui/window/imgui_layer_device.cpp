@@ -56,12 +56,13 @@ Result<std::unique_ptr<LayerDevice>> LayerDevice::open(Validation validation, co
         auto devices = instance->handle().enumeratePhysicalDevices();
         std::erase_if(devices, [&](const auto& device) { return !can_draw(device, *surface); });
         if (devices.empty())
-            return fail_unnamed(Fault::device_lacks, "no device of this machine can draw the inspector's window");
+            return fail(Fault::device_lacks, "window.no_device", "no device of this machine can draw the inspector's window");
         auto best = std::ranges::min_element(devices, {}, rank);
         const std::uint32_t family = *family_of(*best, *surface);
         return std::unique_ptr<LayerDevice>(new LayerDevice(*std::move(instance), std::move(surface), std::move(*best), family));
     } catch (const vk::SystemError& problem) {
-        return fail_unnamed(Fault::device_failed, "the device for the inspector's window cannot be opened: {}", problem.what());
+        return fail(Fault::device_failed, "window.cannot_open_device",
+                    "the device for the inspector's window cannot be opened: {reason}", problem.what());
     }
 }
 

@@ -50,7 +50,8 @@ Result<void> write_layout(const std::filesystem::path& path, const Layout& layou
     std::error_code problem;
     std::filesystem::create_directories(path.parent_path(), problem);
     if (problem)
-        return fail_unnamed(Fault::usage, "cannot make the folder {}: {}", path.parent_path().string(), problem.message());
+        return fail(Fault::usage, "file.cannot_make_folder", "cannot make the folder {folder}: {reason}",
+                    path.parent_path().string(), problem.message());
     const nlohmann::ordered_json json{{"left", layout.left},   {"right", layout.right},   {"bottom", layout.bottom},
                                       {"width", layout.width}, {"height", layout.height}, {"settings", layout.settings}};
     return write_whole_file(path, json.dump(2) + "\n");

@@ -42,6 +42,11 @@ std::string glfw_error() {
     return text ? text : "it does not say why";
 }
 
+Error no_window() {
+    return fail(Fault::device_lacks, "window.cannot_open", "no window can be opened ({reason}); --script plays without one",
+                glfw_error());
+}
+
 class GlfwWindow final : public Window {
 public:
     GlfwWindow(std::unique_ptr<Glfw> glfw, GLFWwindow* window) : glfw_(std::move(glfw)), window_(window, glfwDestroyWindow) {
@@ -64,7 +69,8 @@ public:
     Result<void> open_layer(const DeviceChoice& choice) {
         std::uint32_t count = 0;
         const char** names = glfwGetRequiredInstanceExtensions(&count);
-        if (!names) return fail_unnamed(Fault::device_lacks, "Vulkan cannot draw into windows here: {}", glfw_error());
+        if (!names)
+            return fail(Fault::device_lacks, "window.no_vulkan", "Vulkan cannot draw into windows here: {reason}", glfw_error());
         SurfaceSource source{{names, names + count}, [this](vk::Instance instance) { return surface(instance); }};
         auto device = LayerDevice::open(choice.validation ? Validation::on : Validation::off, source);
         if (!device) return device.error();
@@ -115,7 +121,7 @@ public:
             shown_extent_ = pixels;
             return {};
         } catch (const vk::SystemError& problem) {
-            return fail_unnamed(Fault::device_failed, "the window cannot be drawn: {}", problem.what());
+            return fail(Fault::device_failed, "window.cannot_draw", "the window cannot be drawn: {reason}", problem.what());
         }
     }
 
@@ -175,11 +181,10 @@ private:
 
 Result<std::unique_ptr<Window>> Window::open(int width, int height, const DeviceChoice& choice) {
     auto glfw = std::make_unique<Glfw>();
-    if (!*glfw)
-        return fail_unnamed(Fault::device_lacks, "no window can be opened ({}); --script plays without one", glfw_error());
+    if (!*glfw) return no_window();
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     GLFWwindow* made = glfwCreateWindow(width, height, "Strata", nullptr, nullptr);
-    if (!made) return fail_unnamed(Fault::device_lacks, "no window can be opened ({}); --script plays without one", glfw_error());
+    if (!made) return no_window();
     auto window = std::make_unique<GlfwWindow>(std::move(glfw), made);
     if (const auto opened = window->open_layer(choice); !opened) return opened.error();
     return std::unique_ptr<Window>(std::move(window));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "passes/stages.h"
+
 namespace strata::ui {
 namespace {
 

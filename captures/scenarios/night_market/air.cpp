@@ -17,7 +17,7 @@ constexpr double full_turn = 2 * std::numbers::pi;
 /// What rises from a place: everything about a puff follows from its number and the time.
 struct Plume {
     glm::dvec3 source;
-    glm::dvec3 drift;  ///< metres it moves while it lives
+    glm::dvec3 drift;  ///< meters it moves while it lives
     int puffs = 0;
     double width = 0.1;     ///< of the source
     glm::dvec2 size{0, 0};  ///< of a puff when young and when old

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "captures/scenarios/modelling.h"
+#include "captures/scenarios/modeling.h"
 #include "captures/scenarios/night_market/night_market.h"
 
 namespace strata::scenario::market {
@@ -47,17 +47,17 @@ const std::vector<Letter>& letters() {
 
 }  // namespace
 
-Mesh neon_letters(const std::string& text, float metres, Lettering lettering) {
+Mesh neon_letters(const std::string& text, float meters, Lettering lettering) {
     Mesh mesh;
     mesh.name = text;
-    const float scale = metres / 1.4f;
+    const float scale = meters / 1.4f;
     glm::vec3 at(0);
     for (const char name : text) {
         const auto letter = std::ranges::find(letters(), name, &Letter::name);
         for (const std::vector<glm::vec2>& stroke : letter->strokes) {
             std::vector<glm::vec3> line;
             for (const glm::vec2& point : stroke) line.push_back(at + scale * glm::vec3(point, 0));
-            part::pipe(mesh, line, 0.035f * metres, 6);
+            part::pipe(mesh, line, 0.035f * meters, 6);
         }
         at += lettering == Lettering::along ? glm::vec3(1.4f * scale, 0, 0) : glm::vec3(0, -1.8f * scale, 0);
     }

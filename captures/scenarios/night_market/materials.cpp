@@ -28,7 +28,7 @@ Stone stone_at(glm::vec2 uv, glm::uvec2 count, std::uint64_t seed) {
 }
 
 constexpr glm::uvec2 setts_in_tile{16, 24}, bricks_in_tile{4, 12};
-constexpr float setts_tile = 3.84f, brick_tile = 1;  // metres
+constexpr float setts_tile = 3.84f, brick_tile = 1;  // meters
 
 /// Where water stands between and on the setts, 0..1.
 float puddle(glm::vec2 uv) { return std::clamp((tiling_noise(uv, 3, 21) - 0.47f) * 6, 0.0f, 1.0f); }
@@ -65,12 +65,12 @@ float brick_height(glm::vec2 uv) {
     return 0.01f * std::clamp(stone_at(uv, bricks_in_tile, 31).border / 0.15f, 0.0f, 1.0f) + 0.004f * tiling_noise(uv, 24, 4);
 }
 
-Material textured(std::string name, Texture texture, float metres, FrameBuilder& builder) {
+Material textured(std::string name, Texture texture, float meters, FrameBuilder& builder) {
     Material material = lambert(std::move(name), glm::vec3(1));
     material.lighting_model = LightingModel::ggx;
     material.roughness = 0.6f;
     material.base_color_texture.texture = builder.add(std::move(texture));
-    material.base_color_texture.transform = {1 / metres, 0, 0, 0, 1 / metres, 0};
+    material.base_color_texture.transform = {1 / meters, 0, 0, 0, 1 / meters, 0};
     return material;
 }
 

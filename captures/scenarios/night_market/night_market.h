@@ -57,9 +57,9 @@ void add_stalls(FrameBuilder&, const Materials&, Lamps&);
 void add_people(FrameBuilder&, const Materials&);
 /// Steam, smoke, haze, rain, sparks and the glow around neon: after all lamps.
 void add_air(FrameBuilder&, const Lamps&);
-/// Letters of glass tube, upright: `metres` high, right of `start` along the x axis or below each other. S T R A O D L E N B P.
+/// Letters of glass tube, upright: `meters` high, right of `start` along the x axis or below each other. S T R A O D L E N B P.
 enum class Lettering { along, down };
-Mesh neon_letters(const std::string& text, float metres, Lettering);
+Mesh neon_letters(const std::string& text, float meters, Lettering);
 
 constexpr glm::dvec3 pot{1.1, 1.32, -6.19};    ///< where steam rises
 constexpr glm::dvec3 grill{1.45, 1.1, -10.9};  ///< where smoke and sparks rise

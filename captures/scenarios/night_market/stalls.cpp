@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "captures/scenarios/foliage.h"
-#include "captures/scenarios/modelling.h"
+#include "captures/scenarios/modeling.h"
 #include "captures/scenarios/night_market/night_market.h"
 #include "captures/scenarios/parts.h"
 #include "captures/scenarios/random.h"

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "captures/scenarios/modelling.h"
+#include "captures/scenarios/modeling.h"
 #include "captures/scenarios/night_market/night_market.h"
 #include "captures/scenarios/parts.h"
 #include "captures/scenarios/shapes.h"

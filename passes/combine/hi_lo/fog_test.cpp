@@ -10,6 +10,9 @@
 #include <vector>
 
 #include "passes/combine/truth.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "tests/support/one_pixel.h"
 

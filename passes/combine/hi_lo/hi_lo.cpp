@@ -1,12 +1,16 @@
 // Combine and develop: linear color per sample at `combine`, display light at `film`, after everything was drawn over it.
 #include <algorithm>
 
+#include "capture_format/frame/frame.h"
 #include "passes/choice_names.h"
 #include "passes/combine/hi_lo/hi_lo.shared.h"
+#include "passes/combine/hi_lo/hi_lo_params.h"
 #include "passes/edges/plain_pixels.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/material_table.h"
-#include "passes/shaders/scene.shared.h"
+#include "passes/shaders/scene/view.shared.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::combine {
@@ -131,8 +135,8 @@ Technique hi_lo() {
                 "Adds emission, light and hemisphere light, applies fog, tone maps every sample and averages; per channel, so "
                 "that bright saturated colors turn white.",
             .params = params(),
-            .points = {"resolve=linear", "resolve=weighted", "resolve=lo_hi", "fog=linear", "fog_distance=view_depth",
-                       "fog_distance=distance", "fog=linear fog_distance=distance fog_sky=blended", "hemisphere=table"},
+            .variants = {"resolve=linear", "resolve=weighted", "resolve=lo_hi", "fog=linear", "fog_distance=view_depth",
+                         "fog_distance=distance", "fog=linear fog_distance=distance fog_sky=blended", "hemisphere=table"},
             .views = {{.name = "highlights",
                        .help = "the 8-bit target Hi of the original: a ninth of the exposed radiance, clipped at 9",
                        .declare = highlights}},

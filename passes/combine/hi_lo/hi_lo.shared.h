@@ -26,15 +26,6 @@ const uint fog_sky_blended = 1u;
 const uint hemisphere_recorded = 0u;
 const uint hemisphere_table = 1u;
 
-struct HiLoParams {
-    uint resolve;
-    uint fog;
-    uint fog_distance;
-    uint fog_sky;
-    float fog_near;  // of linear fog, in mean free paths: meters times the recorded density
-    float fog_far;
-    uint hemisphere;
-};
 const float least_fog_length = 1e-3f;  // from near to far, in mean free paths: as good as a wall
 
 // F = clamp(factor * meters + offset) of linear fog: fw and fx of docs/algorithms/deferred.md 8.2.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "passes/combine/formulas.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "tests/support/one_pixel.h"
 
@@ -22,7 +23,7 @@ const Settings& default_settings() {
 
 constexpr double depth = 2;
 
-/// A white Lambert surface two metres before the eye.
+/// A white Lambert surface two meters before the eye.
 ImageSet white_surface(const glm::dvec3& normal) {
     return {{"surface_normal", ReferenceImage(1, 1, 1, {normal, depth})},
             {"surface_color", ReferenceImage(1, 1, 1, {1, 1, 1, 1})},

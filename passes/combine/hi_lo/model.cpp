@@ -1,13 +1,17 @@
-// The same in double. What is developed is the color that the last act found, with everything drawn over it.
+// The same in double. What is developed is the color that the last pass found, with everything drawn over it.
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
 #include "passes/combine/formulas.h"
 #include "passes/combine/hi_lo/hi_lo.shared.h"
+#include "passes/combine/hi_lo/hi_lo_params.h"
 #include "passes/edges/plain_pixels.h"
+#include "passes/frame_images.h"
 #include "passes/lighting/material_table_model.h"
 #include "passes/luminance.h"
-#include "passes/technique.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 
 namespace strata::combine {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "passes/lighting/material_table_model.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "tests/support/one_pixel.h"
 

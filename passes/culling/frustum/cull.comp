@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-#include "passes/culling/view_sides.glsl"
+#include "passes/culling/view_planes.glsl"
 #include "passes/culling/frustum/frustum.shared.h"
 
 layout(local_size_x = 64) in;

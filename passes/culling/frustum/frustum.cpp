@@ -3,6 +3,9 @@
 
 #include "passes/culling/draw_command.shared.h"
 #include "passes/culling/visible_image.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::culling {

@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "capture_format/frame.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::culling {
@@ -40,7 +44,7 @@ std::vector<bool> drawn(const Frame& frame) {
     return drawn;
 }
 
-const double to_side = std::sqrt(2.0);  // metres along x to get one metre away from x = z
+const double to_side = std::sqrt(2.0);  // meters along x to get one meter away from x = z
 
 }  // namespace
 

@@ -1,11 +1,13 @@
-// The same test in double: sphere against the sides of the view's pyramid and its near plane, from the projection's terms.
+// The same test in double: sphere against the planes of the view's pyramid and its near plane, from the projection's terms.
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
 #include "passes/culling/draw_command.shared.h"
-#include "passes/culling/view_sides.h"
+#include "passes/culling/view_planes.h"
 #include "passes/culling/visible_image.h"
 #include "passes/reference/fragments.h"
-#include "passes/technique.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 
 namespace strata::culling {
 

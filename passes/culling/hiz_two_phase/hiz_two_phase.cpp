@@ -5,8 +5,13 @@
 #include "passes/choice_names.h"
 #include "passes/culling/draw_command.shared.h"
 #include "passes/culling/hiz_two_phase/hiz_two_phase.shared.h"
+#include "passes/culling/hiz_two_phase/hiz_two_phase_params.h"
 #include "passes/culling/hiz_two_phase/views.h"
 #include "passes/culling/visible_image.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/stage_input.h"
+#include "passes/technique.h"
 
 namespace strata::culling {
 
@@ -178,7 +183,7 @@ std::vector<Counter> counters() {
 
 std::vector<TimeRatio> ratios() {
     const std::vector<Stage> stages = {Stage::culling, Stage::gbuffer};
-    return {{.name = "culling and G-buffer: two phases, against the sides of the view alone",
+    return {{.name = "culling and G-buffer: two phases, against the planes of the view alone",
              .of = "",
              .against = "frustum",
              .scenario = "city_of_boxes",
@@ -212,7 +217,7 @@ Technique hiz_two_phase() {
                 "Drops draws whose bounding sphere is behind the depth of occluders. Never drops a visible draw; keeps hidden "
                 "ones whose sphere reaches above the wall in front.",
             .params = params(),
-            .points = {"phases=one", "across=2", "across=8"},
+            .variants = {"phases=one", "across=2", "across=8"},
             .counters = counters(),
             .counter_bytes = sizeof(HizCounters),
             .views = hiz_two_phase_views(),

@@ -66,13 +66,6 @@ struct HizView {
     uint level;
 };
 
-struct HizParams {
-    uint phases;
-    uint occluders;
-    uint across;
-    uint level;
-};
-
 struct HizCounters {
     uint in_view;
     uint drawn_first;

@@ -12,6 +12,10 @@
 #include "captures/scenarios.h"
 #include "passes/culling/judge.h"
 #include "passes/culling/truth.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/stage_input.h"
+#include "passes/technique.h"
 
 namespace strata::culling {
 
@@ -307,9 +311,9 @@ TEST(hiz_two_phase, hides_no_visible_draw_of_a_city_and_most_of_those_that_are_n
             const Frame built = city.build(frame, {.width = 160, .height = 90, .samples = samples, .frames = 8});
             const ImageSet before;
             const StageInput input{built, before};
-            const auto figures = culling_judge(hiz_two_phase_model(input, with()), culling_truth(input), input);
-            EXPECT_EQ(figures[0].value, 0) << frame;
-            EXPECT_LE(figures[2].value, 2.5 * figures[3].value) << "drawn, of visible";
+            const auto metrics = culling_judge(hiz_two_phase_model(input, with()), culling_truth(input), input);
+            EXPECT_EQ(metrics[0].value, 0) << frame;
+            EXPECT_LE(metrics[2].value, 2.5 * metrics[3].value) << "drawn, of visible";
         }
 }
 

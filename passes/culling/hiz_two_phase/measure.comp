@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/culling/hiz_two_phase/hiz_two_phase.shared.h"
-#include "passes/culling/view_sides.glsl"
+#include "passes/culling/view_planes.glsl"
 
 layout(local_size_x = 64) in;
 

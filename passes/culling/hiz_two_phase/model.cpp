@@ -9,12 +9,16 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "capture_format/frame/frame.h"
 #include "passes/culling/draw_command.shared.h"
-#include "passes/culling/view_sides.h"
+#include "passes/culling/hiz_two_phase/hiz_two_phase_params.h"
+#include "passes/culling/view_planes.h"
 #include "passes/culling/visible_image.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/raster.h"
 #include "passes/reference/shade.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 
 namespace strata::culling {
 namespace {

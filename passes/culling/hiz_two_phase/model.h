@@ -1,13 +1,22 @@
 // Two-phase occlusion culling in double, in parts that have facts of their own: bounds of spheres and the pyramid of depth.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "passes/culling/hiz_two_phase/hiz_two_phase.shared.h"
+#include "passes/image_set.h"
 #include "passes/reference/bounds.h"
-#include "passes/technique.h"
+
+namespace strata {
+
+class Settings;     // passes/settings.h
+struct StageInput;  // passes/stage_input.h
+struct View;        // capture_format/view.h
+
+}  // namespace strata
 
 namespace strata::culling {
 

@@ -11,7 +11,7 @@ layout(set = 0, binding = 1, scalar) readonly buffer HizDraws { HizDraw hiz_draw
 layout(set = 0, binding = 2, rgba32f) writeonly uniform image2DArray picture;
 layout(push_constant, scalar) uniform Push { HizView push; };
 
-// Metres; 0 where nothing hides anything.
+// Meters; 0 where nothing hides anything.
 float farthest_at(uvec2 pixel) {
     const uint level = min(push.level, last_level());
     const uvec2 texel = pixel >> level;

@@ -1,6 +1,10 @@
 #include "passes/culling/hiz_two_phase/views.h"
 
 #include "passes/culling/hiz_two_phase/hiz_two_phase.shared.h"
+#include "passes/culling/hiz_two_phase/hiz_two_phase_params.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/settings.h"
 
 namespace strata::culling {
 namespace {

@@ -1,7 +1,8 @@
 // Every draw is visible; so are the texels after the last one, which stand for no draw.
 #include "passes/culling/visible_image.h"
 #include "passes/reference/fragments.h"
-#include "passes/technique.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 
 namespace strata::culling {
 

@@ -1,5 +1,8 @@
 // No culling: every opaque draw is drawn. The baseline that can hide nothing wrongly.
 #include "passes/culling/visible_image.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::culling {

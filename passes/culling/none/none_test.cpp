@@ -1,6 +1,8 @@
 // Facts of not culling.
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
 #include "passes/technique.h"
 
 namespace strata::culling {

@@ -1,6 +1,9 @@
 // Supersampling: every pixel counts as an edge, so every sample is shaded alone.
 #include "passes/edges/all_samples/all_samples.shared.h"
 #include "passes/edges/views/edge_views.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::edges {

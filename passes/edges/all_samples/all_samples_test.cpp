@@ -1,8 +1,10 @@
 // Facts of shading every sample, and of what the stage calls an edge.
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/edges/judge.h"
 #include "passes/edges/truth.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::edges {
@@ -48,11 +50,11 @@ TEST(every_sample, misses_no_edge_and_needlessly_shades_all_other_pixels) {
     const Technique technique = all_samples();
     const StageInput stage{input.frame, input.before};
     const ImageSet result = technique.model(stage, Settings(technique.params));
-    const auto figures = edges_judge(result, edges_truth(stage), stage);
-    EXPECT_EQ(figures[0].name, "missed");
-    EXPECT_EQ(figures[0].value, 0);
-    EXPECT_EQ(figures[1].value, 50);
-    EXPECT_EQ(figures[2].value, 100);
+    const auto metrics = edges_judge(result, edges_truth(stage), stage);
+    EXPECT_EQ(metrics[0].name, "missed");
+    EXPECT_EQ(metrics[0].value, 0);
+    EXPECT_EQ(metrics[1].value, 50);
+    EXPECT_EQ(metrics[2].value, 100);
 }
 
 }  // namespace strata::edges

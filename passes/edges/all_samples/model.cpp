@@ -1,5 +1,8 @@
+
+#include "capture_format/frame/frame.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 // Every pixel is an edge where there is more than one sample.
-#include "passes/technique.h"
 
 namespace strata::edges {
 

@@ -3,8 +3,11 @@
 #include "passes/edges/mark.h"
 #include "passes/edges/routing/ratios.h"
 #include "passes/edges/views/edge_views.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/layout.shared.h"
 #include "passes/gbuffer/surface_at.h"
+#include "passes/stage_input.h"
+#include "passes/technique.h"
 
 namespace strata::edges {
 

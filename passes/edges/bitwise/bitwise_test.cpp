@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/edges/truth.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "tests/support/one_pixel.h"
 

@@ -1,10 +1,13 @@
 // What the words of the G-buffer say, in double: images are read back without loss, so equal bits are equal numbers of one sign.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
+#include <string_view>
 
 #include "passes/edges/surface_tests_model.h"
-#include "passes/technique.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 
 namespace strata::edges {
 namespace {

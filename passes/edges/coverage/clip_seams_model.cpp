@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "capture_format/frame/frame.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/triangles.h"
 

@@ -6,7 +6,11 @@
 #include <set>
 #include <tuple>
 
-#include "capture_format/frame.h"
+namespace strata {
+
+struct Frame;  // capture_format/frame.h
+
+}  // namespace strata
 
 namespace strata::edges {
 

@@ -1,12 +1,15 @@
 // Edges are pixels in which a visible triangle covers some samples and not all.
 #include "passes/choice_names.h"
-#include "passes/edges/coverage/coverage.shared.h"
+#include "passes/edges/coverage/coverage_params.h"
 #include "passes/edges/surface_tests.h"
 #include "passes/edges/views/edge_views.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/coverage/fill_coverage.h"
 #include "passes/gbuffer/layout.shared.h"
 #include "passes/scene/material_uses.h"
 #include "passes/scene/scene_facts.h"
+#include "passes/stage_input.h"
+#include "passes/technique.h"
 
 namespace strata::edges {
 
@@ -32,7 +35,7 @@ Image partly_covered(Graph& graph, const FrameImages& frame) {
     graph.clear(partly, {});
     if (frame.opaque.count == 0) return partly;
     const gbuffer::Coverage masks = gbuffer::declare_coverage_again(graph, frame);
-    DrawPass draw = graph.draw("edges/coverage/partial", frame.opaque);
+    DrawStep draw = graph.draw("edges/coverage/partial", frame.opaque);
     gbuffer::add_coverage(draw, masks);
     fix_materials(draw, frame, Surfaces::opaque)
         .tests_depth(frame.depth)
@@ -83,7 +86,7 @@ Technique coverage() {
                                                            .help = added_tests_help,
                                                            .choices = companions}),
                        param<&CoverageParams::depth_step>(depth_step_row), param<&CoverageParams::color_step>(color_step_row)},
-            .points = {"with_tests=depth", "with_tests=material", "with_tests=depth_and_material"},
+            .variants = {"with_tests=depth", "with_tests=material", "with_tests=depth_and_material"},
             .counters = edge_counters(),
             .counter_bytes = sizeof(EdgeCounters),
             .views = edge_views(),

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/reference/shade.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "tests/support/pixel_triangles.h"
 

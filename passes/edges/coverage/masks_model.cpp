@@ -2,6 +2,11 @@
 
 #include <algorithm>
 
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "passes/stage_input.h"
+
 namespace strata::edges {
 namespace {
 

@@ -1,4 +1,4 @@
-// Partial coverage where surfaces are masked, by whichever method: read off the depths that the G-buffer has.
+// Partial coverage where surfaces are masked, by whichever mode: read off the depths that the G-buffer has.
 #pragma once
 
 #include <array>

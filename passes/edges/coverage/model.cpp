@@ -2,15 +2,17 @@
 #include <algorithm>
 #include <vector>
 
+#include "capture_format/frame/frame.h"
 #include "passes/edges/coverage/clip_seams_model.h"
-#include "passes/edges/coverage/coverage.shared.h"
+#include "passes/edges/coverage/coverage_params.h"
 #include "passes/edges/coverage/masks_model.h"
 #include "passes/edges/edges.shared.h"
 #include "passes/edges/surface_tests_model.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/raster.h"
 #include "passes/reference/shade.h"
-#include "passes/technique.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 
 namespace strata::edges {
 namespace {

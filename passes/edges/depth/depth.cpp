@@ -1,8 +1,12 @@
 // Edges are pixels whose depths lie on no one plane.
 #include "passes/choice_names.h"
 #include "passes/edges/depth/depth.shared.h"
+#include "passes/edges/depth/depth_params.h"
 #include "passes/edges/surface_tests.h"
 #include "passes/edges/views/edge_views.h"
+#include "passes/frame_images.h"
+#include "passes/stage_input.h"
+#include "passes/technique.h"
 
 namespace strata::edges {
 
@@ -52,7 +56,7 @@ Technique depth() {
                             .help = "largest distance of four depths from one plane, relative to depth; larger: fewer edges",
                             .scale = Scale::logarithmic}),
                        param<&DepthParams::normal_angle>(normal_angle_row), param<&DepthParams::color_step>(color_step_row)},
-            .points = {"paired_with=nothing", "paired_with=normal", "residual=0.001"},
+            .variants = {"paired_with=nothing", "paired_with=normal", "residual=0.001"},
             .counters = edge_counters(),
             .counter_bytes = sizeof(EdgeCounters),
             .views = edge_views(),

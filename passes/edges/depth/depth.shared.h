@@ -11,13 +11,6 @@ const uint depth_and_normal = 1u;
 const uint depth_and_material = 2u;
 const uint depth_and_both = 3u;
 
-struct DepthParams {
-    uint paired_with;
-    float residual;
-    float normal_angle;
-    float color_step;
-};
-
 // Depth of four samples is that of one plane where the sums over opposite corners of their parallelogram agree.
 struct DepthPush {
     SurfaceLimits limits;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/reference/shade.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "tests/support/one_pixel.h"
 

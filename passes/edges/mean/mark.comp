@@ -1,5 +1,5 @@
 // A pixel is an edge where the mean of its samples is not sample 0, as X-Ray marks them (docs/algorithms/deferred.md 3.2: never use
-// it). `precise`, because the method is about the last bit of a sum.
+// it). `precise`, because the technique is about the last bit of a sum.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/edges/mark.glsl"

@@ -3,8 +3,12 @@
 #include "passes/edges/edges.shared.h"
 #include "passes/edges/mark.h"
 #include "passes/edges/mean/mean.shared.h"
+#include "passes/edges/mean/mean_params.h"
 #include "passes/edges/views/edge_views.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/surface_at.h"
+#include "passes/stage_input.h"
+#include "passes/technique.h"
 
 namespace strata::edges {
 
@@ -25,7 +29,7 @@ Technique mean() {
     return {.stage = Stage::edges,
             .name = "edges/mean",
             .title = "Mean against the first sample",
-            .source = "OpenXRay, shaders of the marking pass (behaviour only); docs/algorithms/deferred.md 3.2",
+            .source = "OpenXRay, shaders of the marking pass (behavior only); docs/algorithms/deferred.md 3.2",
             .summary =
                 "Marks pixels where the mean of the samples differs from the first sample: misses differences that cancel, and "
                 "those in "
@@ -36,7 +40,7 @@ Technique mean() {
                  .fallback = compares_first,
                  .help = "G-buffer targets that are averaged and compared: the first alone, as in X-Ray, or all",
                  .choices = choices})},
-            .points = {"compares=all"},
+            .variants = {"compares=all"},
             .counters = edge_counters(),
             .counter_bytes = sizeof(EdgeCounters),
             .views = edge_views(),

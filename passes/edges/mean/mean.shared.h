@@ -9,10 +9,6 @@ namespace strata::edges {
 const uint compares_first = 0u;
 const uint compares_all = 1u;
 
-struct MeanParams {
-    uint compares;
-};
-
 #ifdef __cplusplus
 }
 #endif

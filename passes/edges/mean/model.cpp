@@ -3,8 +3,10 @@
 #include <vector>
 
 #include "passes/edges/mean/mean.shared.h"
+#include "passes/edges/mean/mean_params.h"
 #include "passes/edges/surface_tests_model.h"
-#include "passes/technique.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 
 namespace strata::edges {
 namespace {

@@ -1,8 +1,12 @@
 #include "passes/edges/routing/ratios.h"
 
+#include <cstddef>
 #include <string>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
 
 namespace strata::edges {
 namespace {

@@ -11,10 +11,6 @@ namespace strata::edges {
 const uint routing_threads = 0u;
 const uint routing_list = 1u;
 
-struct RoutingParams {
-    uint routing;
-};
-
 // Which threads a step runs.
 const uint threads_of_samples = 0u;
 const uint threads_of_pixels = 1u;

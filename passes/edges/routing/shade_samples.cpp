@@ -1,6 +1,7 @@
 #include "passes/edges/routing/shade_samples.h"
 
 #include "passes/edges/plain_pixels.h"
+#include "passes/frame_images.h"
 
 namespace strata::edges {
 namespace {
@@ -27,14 +28,14 @@ EdgeList list_edges(Graph& graph, const FrameImages& frame) {
     return list;
 }
 
-ComputePass routed(ComputePass pass, const FrameImages& frame, const Image& list, std::uint32_t threads) {
-    return sample_edges(pass, frame).samples("edge_list", list).fixes("threads_of", threads);
+ComputeStep routed(ComputeStep builder, const FrameImages& frame, const Image& list, std::uint32_t threads) {
+    return sample_edges(builder, frame).samples("edge_list", list).fixes("threads_of", threads);
 }
 
 }  // namespace
 
 void shade_samples(Graph& graph, const FrameImages& frame, std::uint32_t routing, const Shaded& shaded,
-                   const std::function<ComputePass()>& step) {
+                   const std::function<ComputeStep()>& step) {
     const Extent pixels = frame.extent;
     if (routing == routing_threads || !frame.edges) {
         routed(step(), frame, {}, threads_of_samples)

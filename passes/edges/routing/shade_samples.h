@@ -6,8 +6,14 @@
 
 #include "passes/choice_names.h"
 #include "passes/edges/routing/routing.shared.h"
-#include "passes/frame_images.h"
-#include "passes/technique.h"
+#include "passes/graph/graph.h"
+#include "passes/settings.h"
+
+namespace strata {
+
+struct FrameImages;  // passes/frame_images.h
+
+}  // namespace strata
 
 namespace strata::edges {
 
@@ -29,6 +35,6 @@ struct Shaded {
 };
 
 /// Declares the steps. `step` makes one with everything bound but the edges, their list and what is shaded.
-void shade_samples(Graph&, const FrameImages&, std::uint32_t routing, const Shaded&, const std::function<ComputePass()>& step);
+void shade_samples(Graph&, const FrameImages&, std::uint32_t routing, const Shaded&, const std::function<ComputeStep()>& step);
 
 }  // namespace strata::edges

@@ -1,8 +1,9 @@
 // The tests of decoded surfaces in double.
 #include "passes/edges/edges.shared.h"
 #include "passes/edges/surface_tests_model.h"
-#include "passes/edges/tolerant/tolerant.shared.h"
-#include "passes/technique.h"
+#include "passes/edges/tolerant/tolerant_params.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 
 namespace strata::edges {
 

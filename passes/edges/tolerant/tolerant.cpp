@@ -1,8 +1,11 @@
 // Edges are pixels whose samples differ visibly: in direction, depth or material.
-#include "passes/edges/tolerant/tolerant.shared.h"
+#include "passes/edges/tolerant/tolerant_params.h"
 
 #include "passes/edges/surface_tests.h"
 #include "passes/edges/views/edge_views.h"
+#include "passes/frame_images.h"
+#include "passes/stage_input.h"
+#include "passes/technique.h"
 
 namespace strata::edges {
 
@@ -29,8 +32,8 @@ Technique tolerant() {
         .summary = "Compares decoded normals, depths and materials against limits: fewer edges, and faint ones stay jagged.",
         .params = {param<&TolerantParams::normal_angle>(normal_angle_row), param<&TolerantParams::depth_step>(depth_step_row),
                    param<&TolerantParams::color_step>(color_step_row)},
-        .points = {"normal_angle=1 depth_step=0.001 color_step=0.01", "normal_angle=2", "normal_angle=37 depth_step=0.05",
-                   "color_step=0.5"},
+        .variants = {"normal_angle=1 depth_step=0.001 color_step=0.01", "normal_angle=2", "normal_angle=37 depth_step=0.05",
+                     "color_step=0.5"},
         .counters = edge_counters(),
         .counter_bytes = sizeof(EdgeCounters),
         .views = edge_views(),

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "tests/support/one_pixel.h"
 
@@ -14,8 +15,8 @@ Technique tolerant();
 
 namespace {
 
-/// A grey surface four metres before the eye that faces it.
-ImageSet grey_surface() {
+/// A gray surface four meters before the eye that faces it.
+ImageSet gray_surface() {
     return {{"depth_layers", ReferenceImage(1, 1, 4, glm::dvec4(.5, 0, 0, 1))},
             {"surface_normal", ReferenceImage(1, 1, 4, glm::dvec4(0, 0, -1, 4))},
             {"surface_color", ReferenceImage(1, 1, 4, glm::dvec4(.5, .5, .5, 1))},
@@ -34,14 +35,14 @@ double mark_of(const ImageSet& before, const std::string& name = {}, double valu
 }
 
 ImageSet turned(double degrees) {
-    ImageSet before = grey_surface();
+    ImageSet before = gray_surface();
     const double angle = degrees * std::numbers::pi / 180;
     before.at("surface_normal").at(0, 0, 2) = {std::sin(angle), 0, -std::cos(angle), 4};
     return before;
 }
 
 ImageSet at_depth(double z) {
-    ImageSet before = grey_surface();
+    ImageSet before = gray_surface();
     before.at("surface_normal").at(0, 0, 1).w = z;
     return before;
 }
@@ -61,7 +62,7 @@ TEST(TolerantEdges, DepthsMayDifferByAHundredthOfTheNearerOne) {
 }
 
 TEST(TolerantEdges, ColorsMayDifferByATenthOverAllChannels) {
-    ImageSet before = grey_surface();
+    ImageSet before = gray_surface();
     before.at("surface_color").at(0, 0, 3) = {.53, .47, .53, 1};
     EXPECT_EQ(mark_of(before), 0);
     before.at("surface_color").at(0, 0, 3) = {.54, .46, .53, 1};
@@ -71,22 +72,22 @@ TEST(TolerantEdges, ColorsMayDifferByATenthOverAllChannels) {
 
 // What the chapter's rule leaves out: a sign that shines has the base color of the wall it hangs on.
 TEST(TolerantEdges, EmissionCountsAsColor) {
-    ImageSet before = grey_surface();
+    ImageSet before = gray_surface();
     before.at("emission").at(0, 0, 1) = {2, 0, 0, 1};
     EXPECT_EQ(mark_of(before), 1);
 }
 
 TEST(TolerantEdges, AnotherLightingModelOrMetalMakesAnEdge) {
-    ImageSet before = grey_surface();
+    ImageSet before = gray_surface();
     before.at("surface_material").at(0, 0, 1).x = double(LightingModel::cloth);
     EXPECT_EQ(mark_of(before), 1);
-    before = grey_surface();
+    before = gray_surface();
     before.at("surface_material").at(0, 0, 1).y = 1;
     EXPECT_EQ(mark_of(before), 1);
 }
 
 TEST(TolerantEdges, PartialCoverageMakesAnEdgeAndTheSkyNone) {
-    ImageSet before = grey_surface();
+    ImageSet before = gray_surface();
     before.at("depth_layers").at(0, 0, 0).x = 0;
     EXPECT_EQ(mark_of(before), 1);
     for (std::uint32_t sample = 0; sample < 4; ++sample) before.at("depth_layers").at(0, 0, sample).x = 0;

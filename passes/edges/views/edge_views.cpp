@@ -3,12 +3,13 @@
 #include "passes/edges/mark.h"
 #include "passes/edges/plain_pixels.h"
 #include "passes/edges/views/views.shared.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/surface_at.h"
 
 namespace strata::edges {
 namespace {
 
-ComputePass bound(Graph& graph, const FrameImages& frame, std::string shader) {
+ComputeStep bound(Graph& graph, const FrameImages& frame, std::string shader) {
     return sample_edges(sample_words(graph.compute(std::move(shader)), frame), frame).samples("emission", frame.emission);
 }
 

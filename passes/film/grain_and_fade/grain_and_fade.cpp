@@ -2,9 +2,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
 #include "passes/choice_names.h"
 #include "passes/film/grain_and_fade/grain_and_fade.shared.h"
+#include "passes/film/grain_and_fade/grain_and_fade_params.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
 #include "passes/shaders/hash.shared.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::film {
@@ -55,7 +60,7 @@ Technique grain_and_fade() {
                                                     .fallback = 24,
                                                     .help = "times per second that grain is redrawn",
                                                     .scale = Scale::logarithmic})},
-        .points = {"grain=xray", "grain=off", "grain_rate=60"},
+        .variants = {"grain=xray", "grain=off", "grain_rate=60"},
         .abilities = {.is_time_unit = true},
         .declare = declare,
         .model = grain_and_fade_model,

@@ -11,11 +11,6 @@ const uint grain_centered = 0u;
 const uint grain_xray = 1u;
 const uint grain_off = 2u;
 
-struct GrainParams {
-    uint grain;
-    float grain_rate;  // Hz
-};
-
 // Tiles of 64 x 64 pixels hold each of 4096 values once.
 const uint grain_tile = 64u;
 const uint grain_values = 4096u;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/film/grain_model.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "tests/support/one_pixel.h"
 
@@ -22,7 +23,7 @@ Frame grainy(float grain, float fade = 0) {
     return frame;
 }
 
-/// A grey tile of 64 x 64 pixels after the film.
+/// A gray tile of 64 x 64 pixels after the film.
 ReferenceImage aged_tile(const Frame& frame, std::string_view form) {
     static const Technique technique = grain_and_fade();
     Settings settings(technique.params);

@@ -2,8 +2,10 @@
 #include <cmath>
 
 #include "passes/film/grain_and_fade/grain_and_fade.shared.h"
+#include "passes/film/grain_and_fade/grain_and_fade_params.h"
 #include "passes/film/grain_model.h"
-#include "passes/technique.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 
 namespace strata::film {
 

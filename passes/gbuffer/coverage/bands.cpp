@@ -25,8 +25,8 @@ std::uint32_t hashed_samples(std::uint32_t count, const BandPlace& at) {
 
 }  // namespace
 
-std::uint32_t dither(std::uint32_t method, const BandPlace& at) {
-    switch (method) {
+std::uint32_t dither(std::uint32_t mode, const BandPlace& at) {
+    switch (mode) {
         case masked_a2c_or:
             return (at.x | at.y) % 4;
         case masked_unbiased:
@@ -36,10 +36,10 @@ std::uint32_t dither(std::uint32_t method, const BandPlace& at) {
     }
 }
 
-std::uint32_t sample_count(std::uint32_t method, std::uint32_t samples, double alpha, std::uint32_t p) {
+std::uint32_t sample_count(std::uint32_t mode, std::uint32_t samples, double alpha, std::uint32_t p) {
     const double bands = samples + 1;
     double count = 0;
-    switch (method) {
+    switch (mode) {
         case masked_a2c_2:
         case masked_a2c_or:
             count = bands * alpha - p / 12.0;  // a - p * (.2 / 4) / 3 at 4 samples, in bands
@@ -56,11 +56,11 @@ std::uint32_t sample_count(std::uint32_t method, std::uint32_t samples, double a
     return static_cast<std::uint32_t>(std::clamp(std::floor(count), 0.0, double(samples)));
 }
 
-std::uint32_t sample_mask(std::uint32_t method, std::uint32_t samples, double alpha, const BandPlace& at) {
-    const std::uint32_t p = dither(method, at), count = sample_count(method, samples, alpha, p);
+std::uint32_t sample_mask(std::uint32_t mode, std::uint32_t samples, double alpha, const BandPlace& at) {
+    const std::uint32_t p = dither(mode, at), count = sample_count(mode, samples, alpha, p);
     if (samples == 1) return count;
-    if (method == masked_a2c_1 || method == masked_sharpened) return turning[count][p];
-    if (method == masked_unbiased) return hashed_samples(count, at);
+    if (mode == masked_a2c_1 || mode == masked_sharpened) return turning[count][p];
+    if (mode == masked_unbiased) return hashed_samples(count, at);
     return (1u << count) - 1;
 }
 

@@ -37,7 +37,7 @@ uint band_of(float alpha, uint dither) {
     return band;
 }
 
-// Method 1: single samples in turn, the two diagonals, all but one in turn.
+// Mode 1: single samples in turn, the two diagonals, all but one in turn.
 uint turning_pattern(uint count, uint p) {
     if (count == 1u) return 1u << p;
     if (count == 2u) return (p & 1u) == 0u ? 0x9u : 0x6u;

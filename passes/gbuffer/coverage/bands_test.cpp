@@ -14,7 +14,7 @@
 namespace strata::gbuffer {
 namespace {
 
-constexpr std::uint32_t band_methods[] = {masked_a2c_1, masked_a2c_2, masked_a2c_or, masked_full_step, masked_unbiased};
+constexpr std::uint32_t band_modes[] = {masked_a2c_1, masked_a2c_2, masked_a2c_or, masked_full_step, masked_unbiased};
 
 /// A fraction, so that alphas and steps which no float holds stay what they are.
 struct Fraction {
@@ -26,65 +26,65 @@ struct Fraction {
 };
 
 /// The chapter's formulas at 4 samples and alpha k / 16.
-long exact_count(std::uint32_t method, long k, long p) {
+long exact_count(std::uint32_t mode, long k, long p) {
     const Fraction bands{5 * k, 16};
     Fraction at = bands;
-    if (method == masked_a2c_2 || method == masked_a2c_or) at = bands + Fraction{-5 * p * 2, 10 * 4 * 3};  // p (.2 / 4) / 3
-    if (method == masked_full_step) at = bands + Fraction{5 * (2 * p - 3), 2 * 20};
-    if (method == masked_unbiased) at = Fraction{4 * k, 16} + Fraction{2 * p + 1, 8};
+    if (mode == masked_a2c_2 || mode == masked_a2c_or) at = bands + Fraction{-5 * p * 2, 10 * 4 * 3};  // p (.2 / 4) / 3
+    if (mode == masked_full_step) at = bands + Fraction{5 * (2 * p - 3), 2 * 20};
+    if (mode == masked_unbiased) at = Fraction{4 * k, 16} + Fraction{2 * p + 1, 8};
     return std::clamp(at.floor(), 0l, 4l);
 }
 
 /// Over an aligned tile of 4 x 4 pixels.
-double exact_coverage(std::uint32_t method, long k) {
+double exact_coverage(std::uint32_t mode, long k) {
     long covered = 0;
     for (long y = 0; y < 4; ++y)
-        for (long x = 0; x < 4; ++x) covered += exact_count(method, k, method == masked_a2c_or ? (x | y) & 3 : (x + y) & 3);
+        for (long x = 0; x < 4; ++x) covered += exact_count(mode, k, mode == masked_a2c_or ? (x | y) & 3 : (x + y) & 3);
     return double(covered) / 64;
 }
 
-double mean_coverage(std::uint32_t method, double alpha, std::uint32_t samples = 4) {
+double mean_coverage(std::uint32_t mode, double alpha, std::uint32_t samples = 4) {
     double covered = 0;
     for (std::uint32_t y = 0; y < 4; ++y)
         for (std::uint32_t x = 0; x < 4; ++x)
-            covered += std::popcount(sample_mask(method, samples, alpha, {.x = x, .y = y, .draw = 5, .triangle = 9}));
+            covered += std::popcount(sample_mask(mode, samples, alpha, {.x = x, .y = y, .draw = 5, .triangle = 9}));
     return covered / (16 * samples);
 }
 
 TEST(CoverageBands, MeanCoverageOfConstantAlphaIsTheTableOfTheChapter) {
     for (const MeanCoverages& row : mean_coverages)
         for (std::size_t i = 0; i < table_alphas.size(); ++i) {
-            EXPECT_EQ(exact_coverage(row.method, long(table_alphas[i])), row.at[i]) << row.method << " at " << table_alphas[i];
-            EXPECT_EQ(mean_coverage(row.method, double(table_alphas[i]) / 16), row.at[i]) << row.method;
+            EXPECT_EQ(exact_coverage(row.mode, long(table_alphas[i])), row.at[i]) << row.mode << " at " << table_alphas[i];
+            EXPECT_EQ(mean_coverage(row.mode, double(table_alphas[i]) / 16), row.at[i]) << row.mode;
         }
 }
 
 TEST(CoverageBands, CountsInDoubleAreThoseOfFractions) {
-    for (const std::uint32_t method : band_methods)
+    for (const std::uint32_t mode : band_modes)
         for (std::uint32_t k = 0; k <= 16; ++k)
             for (std::uint32_t p = 0; p < 4; ++p)
-                EXPECT_EQ(sample_count(method, 4, k / 16.0, p), std::uint32_t(exact_count(method, long(k), long(p)))) << method;
+                EXPECT_EQ(sample_count(mode, 4, k / 16.0, p), std::uint32_t(exact_count(mode, long(k), long(p)))) << mode;
 }
 
 TEST(CoverageBands, MeansOverAllAlphasAndLargestErrorsAreThoseOfTheChapter) {
-    struct Figures {
-        std::uint32_t method;
+    struct Metrics {
+        std::uint32_t mode;
         double mean, worst;
     };
     constexpr int steps = 20000;
-    for (const Figures& wanted : {Figures{masked_a2c_1, .5, .2},
+    for (const Metrics& wanted : {Metrics{masked_a2c_1, .5, .2},
                                   {masked_a2c_2, .475, .2},
                                   {masked_a2c_or, .4625, .201},
                                   {masked_full_step, .5, .125},
                                   {masked_unbiased, .5, .0312}}) {
         double sum = 0, worst = 0;
         for (int i = 0; i < steps; ++i) {
-            const double alpha = (i + .5) / steps, got = mean_coverage(wanted.method, alpha);
+            const double alpha = (i + .5) / steps, got = mean_coverage(wanted.mode, alpha);
             sum += got;
             worst = std::max(worst, std::abs(got - alpha));
         }
-        EXPECT_NEAR(sum / steps, wanted.mean, 1e-4) << wanted.method;
-        EXPECT_NEAR(worst, wanted.worst, 1e-3) << wanted.method;
+        EXPECT_NEAR(sum / steps, wanted.mean, 1e-4) << wanted.mode;
+        EXPECT_NEAR(worst, wanted.worst, 1e-3) << wanted.mode;
     }
 }
 
@@ -97,29 +97,28 @@ TEST(CoverageBands, AtOneSamplePlainBandsPartAtAHalfAndUnbiasedOnesDither) {
 }
 
 TEST(CoverageBands, AlphaOneCoversEverySampleAndAlphaZeroNone) {
-    for (const std::uint32_t method : band_methods)
+    for (const std::uint32_t mode : band_modes)
         for (const std::uint32_t samples : {1u, 4u})
             for (std::uint32_t place = 0; place < 64; ++place) {
                 const BandPlace at{.x = place % 8, .y = place / 8, .draw = place, .triangle = place * 3};
-                EXPECT_EQ(sample_mask(method, samples, 1, at), (1u << samples) - 1) << method;
-                EXPECT_EQ(sample_mask(method, samples, 0, at), 0u) << method;
+                EXPECT_EQ(sample_mask(mode, samples, 1, at), (1u << samples) - 1) << mode;
+                EXPECT_EQ(sample_mask(mode, samples, 0, at), 0u) << mode;
             }
 }
 
 /// What two layers of an alpha over each other cover.
-double union_of_two(std::uint32_t method, double alpha) {
+double union_of_two(std::uint32_t mode, double alpha) {
     constexpr std::uint32_t edge = 64;
     double covered = 0;
     for (std::uint32_t y = 0; y < edge; ++y)
         for (std::uint32_t x = 0; x < edge; ++x)
-            covered += std::popcount(sample_mask(method, 4, alpha, {.x = x, .y = y, .draw = 1}) |
-                                     sample_mask(method, 4, alpha, {.x = x, .y = y, .draw = 2}));
+            covered += std::popcount(sample_mask(mode, 4, alpha, {.x = x, .y = y, .draw = 1}) |
+                                     sample_mask(mode, 4, alpha, {.x = x, .y = y, .draw = 2}));
     return covered / (4 * edge * edge);
 }
 
 TEST(CoverageBands, TwoLayersOfAHalfHideAHalfWithOnePatternAndThreeQuartersHashed) {
-    for (const std::uint32_t method : {masked_a2c_1, masked_a2c_2, masked_a2c_or})
-        EXPECT_EQ(union_of_two(method, .5), .5) << method;
+    for (const std::uint32_t mode : {masked_a2c_1, masked_a2c_2, masked_a2c_or}) EXPECT_EQ(union_of_two(mode, .5), .5) << mode;
     // Of a pixel .5, .75 or 1 with the shares 1/4, 1/2, 1/4: a standard deviation of .177, over 64 x 64 pixels .0028.
     EXPECT_NEAR(union_of_two(masked_unbiased, .5), .75, 4 * .0028);
 }

@@ -1,4 +1,4 @@
-// Methods by which alpha of masked surfaces becomes covered samples: what C++ and shaders share of them.
+// Modes by which alpha of masked surfaces becomes covered samples: what C++ and shaders share of them.
 #ifndef PASSES_GBUFFER_COVERAGE_SHARED_H
 #define PASSES_GBUFFER_COVERAGE_SHARED_H
 #include "passes/shader_interop.h"

@@ -2,38 +2,43 @@
 
 #include <set>
 
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
 #include "passes/choice_names.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/coverage/mip_scales.h"
-#include "passes/gbuffer/fill.shared.h"
+#include "passes/gbuffer/fill_params.h"
 #include "passes/gbuffer/layout.shared.h"
+#include "passes/graph/graph.h"
 #include "passes/scene/material_uses.h"
 #include "passes/scene/scene_facts.h"
 
 namespace strata::gbuffer {
 namespace {
 
-constexpr auto mask_methods = choice_names({{masked_clip, "clip"},
-                                            {masked_per_sample, "per_sample"},
-                                            {masked_per_sample_fine, "per_sample_fine"},
-                                            {masked_a2c_1, "a2c_1"},
-                                            {masked_a2c_2, "a2c_2"},
-                                            {masked_a2c_or, "a2c_or"},
-                                            {masked_full_step, "full_step"},
-                                            {masked_unbiased, "unbiased"},
-                                            {masked_mip_coverage, "mip_coverage"},
-                                            {masked_sharpened, "sharpened"},
-                                            {masked_hardware, "hardware"}});
+constexpr auto mask_modes = choice_names({{masked_clip, "clip"},
+                                          {masked_per_sample, "per_sample"},
+                                          {masked_per_sample_fine, "per_sample_fine"},
+                                          {masked_a2c_1, "a2c_1"},
+                                          {masked_a2c_2, "a2c_2"},
+                                          {masked_a2c_or, "a2c_or"},
+                                          {masked_full_step, "full_step"},
+                                          {masked_unbiased, "unbiased"},
+                                          {masked_mip_coverage, "mip_coverage"},
+                                          {masked_sharpened, "sharpened"},
+                                          {masked_hardware, "hardware"}});
 
 bool has_masks(const FrameImages& frame) {
     const std::uint32_t mask = 1u << static_cast<std::uint32_t>(AlphaMode::mask);
     return (frame.facts->material_uses(Surfaces::opaque).alpha_modes & mask) != 0;
 }
 
-uint method_that_matters(const FrameImages& frame, uint method, ShadingRate rate) {
+uint mode_that_matters(const FrameImages& frame, uint mode, ShadingRate rate) {
     if (!has_masks(frame)) return masked_clip;
-    if (method == masked_per_sample && (frame.samples == 1 || rate == ShadingRate::sample)) return masked_clip;
-    const bool is_of_samples = method == masked_per_sample_fine || method == masked_sharpened || method == masked_hardware;
-    return is_of_samples && frame.samples == 1 ? masked_clip : method;
+    if (mode == masked_per_sample && (frame.samples == 1 || rate == ShadingRate::sample)) return masked_clip;
+    const bool is_of_samples = mode == masked_per_sample_fine || mode == masked_sharpened || mode == masked_hardware;
+    return is_of_samples && frame.samples == 1 ? masked_clip : mode;
 }
 
 std::set<std::uint32_t> masked_materials(const FrameImages& frame) {
@@ -68,41 +73,41 @@ Param masked_param() {
                                        .fallback = masked_clip,
                                        .help = "how alpha of masked surfaces becomes covered samples; clip: all samples if alpha "
                                                "at the pixel's center reaches the cutoff",
-                                       .choices = mask_methods});
+                                       .choices = mask_modes});
 }
 
-Coverage declare_coverage(Graph& graph, const FrameImages& frame, uint method, ShadingRate rate) {
-    Coverage coverage{.method = method_that_matters(frame, method, rate), .samples = frame.samples, .rate = rate};
-    if (coverage.method == masked_mip_coverage) coverage.scales = declare_scales(graph, frame);
+Coverage declare_coverage(Graph& graph, const FrameImages& frame, uint mode, ShadingRate rate) {
+    Coverage coverage{.mode = mode_that_matters(frame, mode, rate), .samples = frame.samples, .rate = rate};
+    if (coverage.mode == masked_mip_coverage) coverage.scales = declare_scales(graph, frame);
     return coverage;
 }
 
-Coverage declare_coverage_of_texels(Graph& graph, const FrameImages& frame, uint method) {
-    Coverage coverage{.method = has_masks(frame) ? method : masked_clip, .samples = 1};
-    if (coverage.method == masked_mip_coverage) coverage.scales = declare_scales(graph, frame);
+Coverage declare_coverage_of_texels(Graph& graph, const FrameImages& frame, uint mode) {
+    Coverage coverage{.mode = has_masks(frame) ? mode : masked_clip, .samples = 1};
+    if (coverage.mode == masked_mip_coverage) coverage.scales = declare_scales(graph, frame);
     return coverage;
 }
 
-void add_coverage(DrawPass& pass, const Coverage& coverage) {
-    const bool masks_in_shader = coverage.method != masked_clip && coverage.method != masked_hardware;
-    pass.fixes("masked", coverage.method)
+void add_coverage(DrawStep& builder, const Coverage& coverage) {
+    const bool masks_in_shader = coverage.mode != masked_clip && coverage.mode != masked_hardware;
+    builder.fixes("masked", coverage.mode)
         .fixes("mask_samples", masks_in_shader ? coverage.samples : 1u)
         .fixes("masks_at_sample", masks_in_shader && coverage.rate == ShadingRate::sample ? 1u : 0u)
         .samples("mask_scales", coverage.scales);
 }
 
 void draw_depth_by_alpha(Graph& graph, FrameImages& frame) {
-    DrawPass draw = graph.draw("gbuffer/coverage/depth_by_alpha", frame.opaque);
+    DrawStep draw = graph.draw("gbuffer/coverage/depth_by_alpha", frame.opaque);
     fix_materials(draw, frame, Surfaces::opaque);
     if (shows_no_backs(*frame.recorded, frame.facts->lists().opaque)) draw.culls(Cull::back);
     draw.covers_by_alpha().drops_other_colors().writes_depth(frame.depth);
 }
 
 Coverage declare_coverage_again(Graph& graph, const FrameImages& frame) {
-    const uint method = frame.gbuffer_layout >> layout_masked_shift;
+    const uint mode = frame.gbuffer_layout >> layout_masked_shift;
     // Alpha at the sample against the cutoff is what the plain test does where attributes are the sample's.
     const bool at_sample = (frame.gbuffer_layout & layout_shaded_at_sample) != 0;
-    return declare_coverage(graph, frame, at_sample && method == masked_clip ? masked_per_sample : method, ShadingRate::pixel);
+    return declare_coverage(graph, frame, at_sample && mode == masked_clip ? masked_per_sample : mode, ShadingRate::pixel);
 }
 
 }  // namespace strata::gbuffer

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/triangles.h"
+#include "passes/stage_input.h"
 
 namespace strata::gbuffer {
 namespace {
@@ -63,7 +65,7 @@ std::vector<PixelCoverage> pixel_coverage(const ImageSet& result, const ImageSet
     return pixels;
 }
 
-std::vector<Figure> coverage_figures(const ImageSet& result, const ImageSet& truth, const Frame& frame) {
+std::vector<Metric> coverage_metrics(const ImageSet& result, const ImageSet& truth, const Frame& frame) {
     const std::vector<PixelCoverage> pixels = pixel_coverage(result, truth, frame);
     if (pixels.empty()) return {};
     double difference = 0, covered = 0, got_area = 0, area = 0;

@@ -3,7 +3,13 @@
 
 #include <vector>
 
-#include "passes/stages.h"
+#include "passes/figure.h"
+
+namespace strata {
+
+struct Frame;  // capture_format/frame.h
+
+}  // namespace strata
 
 namespace strata::gbuffer {
 
@@ -24,6 +30,6 @@ std::vector<PixelCoverage> pixel_coverage(const ImageSet& result, const ImageSet
 /// Nothing where a frame has no masked surfaces. First the mean difference of coverage per pixel over pixels that either covers
 /// in part or wholly, then by how much the whole area is off, in percent of the true one: fences and leaves that vanish or grow
 /// solid where texels are small.
-std::vector<Figure> coverage_figures(const ImageSet& result, const ImageSet& truth, const Frame&);
+std::vector<Metric> coverage_metrics(const ImageSet& result, const ImageSet& truth, const Frame&);
 
 }  // namespace strata::gbuffer

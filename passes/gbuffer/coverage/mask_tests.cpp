@@ -6,6 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/texture.h"
 #include "passes/gbuffer/coverage/bands.h"
 #include "passes/gbuffer/coverage/coverage.shared.h"
 #include "passes/reference/shade.h"
@@ -53,8 +56,8 @@ double alpha_beside(const Frame& frame, const Material& material, const MaskPoin
 
 class Model {
 public:
-    Model(const Frame& frame, std::uint32_t method, ShadeAt shade_at) : frame_(&frame), method_(method), shade_at_(shade_at) {
-        if (method != masked_mip_coverage) return;
+    Model(const Frame& frame, std::uint32_t mode, ShadeAt shade_at) : frame_(&frame), mode_(mode), shade_at_(shade_at) {
+        if (mode != masked_mip_coverage) return;
         for (const Material& material : frame.materials)
             if (material.alpha_mode == AlphaMode::mask)
                 for (std::uint32_t mip = 0; mip < mask_scale_mips; ++mip)
@@ -64,7 +67,7 @@ public:
     MaskCover operator()(const RasterPoint& point) const {
         const MaskPoint here = mask_point_at(*frame_, point);
         const Material& material = *material_of(*frame_, point.draw);
-        switch (method_) {
+        switch (mode_) {
             case masked_per_sample:
                 return against_cutoff(material, alpha(material, here, own_place(point), 1));
             case masked_per_sample_fine:
@@ -81,8 +84,8 @@ public:
 
     /// Of one sample per pixel.
     MaskCover at_point(const Material& material, const MaskPoint& here, const BandPlace& place) const {
-        if (method_ == masked_clip) return against_cutoff(material, alpha(material, here, {}, 1));
-        if (method_ == masked_mip_coverage) return by_scaled_alpha(material, here);
+        if (mode_ == masked_clip) return against_cutoff(material, alpha(material, here, {}, 1));
+        if (mode_ == masked_mip_coverage) return by_scaled_alpha(material, here);
         return by_bands(material, here, place, {.at = 0, .of = 1});
     }
 
@@ -143,12 +146,12 @@ private:
     MaskCover by_bands(const Material& material, const MaskPoint& l, const BandPlace& place, Sample sample) const {
         const double here = alpha(material, l, {}, 1);
         double change = 1;
-        if (method_ == masked_sharpened)
+        if (mode_ == masked_sharpened)
             change =
                 std::max(1e-4, std::abs(alpha(material, l, {1, 0}, 1) - here) + std::abs(alpha(material, l, {0, 1}, 1) - here));
         const auto covers = [&](double a) {
-            if (method_ == masked_sharpened) a = std::clamp((a - double(material.mask_cutoff)) / change + 0.5, 0.0, 1.0);
-            return (sample_mask(method_, sample.of, a, place) >> sample.at & 1u) != 0;
+            if (mode_ == masked_sharpened) a = std::clamp((a - double(material.mask_cutoff)) / change + 0.5, 0.0, 1.0);
+            return (sample_mask(mode_, sample.of, a, place) >> sample.at & 1u) != 0;
         };
         // Patterns of one more sample need not hold those of one less, and a steepened alpha passes several bands.
         const bool exactly = covers(here);
@@ -158,7 +161,7 @@ private:
     }
 
     const Frame* frame_;
-    std::uint32_t method_;
+    std::uint32_t mode_;
     ShadeAt shade_at_;
     std::map<const Material*, std::vector<double>> scales_;
 };
@@ -203,17 +206,17 @@ double mip_scale_model(const Frame& frame, const Material& material, std::uint32
     return *best > 0 ? cutoff / *best : 1;
 }
 
-PointMaskTest point_mask_model(const Frame& frame, std::uint32_t method) {
-    const auto model = std::make_shared<const Model>(frame, method, ShadeAt::pixel_center);
+PointMaskTest point_mask_model(const Frame& frame, std::uint32_t mode) {
+    const auto model = std::make_shared<const Model>(frame, mode, ShadeAt::pixel_center);
     return [model](const Material& material, const MaskPoint& point, const BandPlace& place) {
         return model->at_point(material, point, place);
     };
 }
 
-MaskTest mask_model(const Frame& frame, std::uint32_t method, ShadeAt shade_at) {
+MaskTest mask_model(const Frame& frame, std::uint32_t mode, ShadeAt shade_at) {
     // One sample has nothing to share out: see declare_coverage().
-    if (method == masked_clip || (method == masked_hardware && frame.view.samples == 1)) return cutoff_test(frame);
-    return [model = std::make_shared<const Model>(frame, method, shade_at)](const RasterPoint& point) { return (*model)(point); };
+    if (mode == masked_clip || (mode == masked_hardware && frame.view.samples == 1)) return cutoff_test(frame);
+    return [model = std::make_shared<const Model>(frame, mode, shade_at)](const RasterPoint& point) { return (*model)(point); };
 }
 
 }  // namespace strata::gbuffer

@@ -9,6 +9,10 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/texture.h"
+
 namespace strata::gbuffer {
 namespace {
 

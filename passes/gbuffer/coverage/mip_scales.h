@@ -4,8 +4,14 @@
 
 #include <array>
 
-#include "capture_format/frame.h"
 #include "passes/gbuffer/coverage/coverage.shared.h"
+
+namespace strata {
+
+struct Frame;     // capture_format/frame.h
+struct Material;  // capture_format/frame/material.h
+
+}  // namespace strata
 
 namespace strata::gbuffer {
 

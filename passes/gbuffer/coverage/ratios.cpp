@@ -1,7 +1,6 @@
-// Times of the methods of coverage.shared.h against the plain alpha test.
+// Times of the modes of coverage.shared.h against the plain alpha test.
+#include "capture_format/frame/frame.h"
 #include "passes/gbuffer/coverage/fill_coverage.h"
-
-#include "capture_format/frame.h"
 
 namespace strata::gbuffer {
 namespace {

@@ -1,5 +1,8 @@
 // G-buffer of 80 bits beside the depth buffer, which depth is read from.
+#include "passes/frame_images.h"
 #include "passes/gbuffer/fill.h"
+#include "passes/graph/graph.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::gbuffer {
@@ -27,12 +30,12 @@ Technique depth_rebuilt() {
             "Reads depth from the depth buffer, exact at every sample; stores octahedral normals in 2 x 16 bits, off by at most "
             "0.004 degrees.",
         .params = fill_params(),
-        .points = {"attributes=sample"},
+        .variants = {"attributes=sample"},
         .declare = declare,
         .model = depth_rebuilt_model,
         .tolerance = {.rmse = 1.5e-3,
                       .worst = 0.018,
-                      .because = "a float on a rounding boundary takes the neighbouring code: 1/255 on the sRGB curve is "
+                      .because = "a float on a rounding boundary takes the neighboring code: 1/255 on the sRGB curve is "
                                  "0.0087 linear, 1/57 of metallic 0.018"}};
 }
 

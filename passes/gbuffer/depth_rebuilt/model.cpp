@@ -4,7 +4,7 @@
 #include "passes/gbuffer/codes.h"
 #include "passes/gbuffer/depth_rebuilt/depth_rebuilt.shared.h"
 #include "passes/gbuffer/layout_model.h"
-#include "passes/technique.h"
+#include "passes/stage_input.h"
 
 namespace strata::gbuffer {
 

@@ -1,5 +1,8 @@
 // G-buffer of 96 bits: octahedral coordinates and view depth as half floats.
+#include "passes/frame_images.h"
 #include "passes/gbuffer/fill.h"
+#include "passes/graph/graph.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::gbuffer {
@@ -26,7 +29,7 @@ Technique oct_half() {
             "Stores octahedral normals in two half floats: off by at most 0.06 degrees in any direction; depth by 1/2048 of "
             "itself.",
         .params = fill_params(),
-        .points = {"attributes=sample"},
+        .variants = {"attributes=sample"},
         .declare = declare,
         .model = oct_half_model,
         .tolerance = {.rmse = 1.5e-3,

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
 #include "passes/gbuffer/codes.h"
 #include "passes/gbuffer/layout_model.h"
 #include "passes/gbuffer/octahedral/octahedral.shared.h"
-#include "passes/technique.h"
+#include "passes/stage_input.h"
 
 namespace strata::gbuffer {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "passes/gbuffer/codes.h"
 #include "passes/gbuffer/layout_model.h"
-#include "passes/technique.h"
+#include "passes/stage_input.h"
 
 namespace strata::gbuffer {
 

@@ -1,5 +1,8 @@
 // G-buffer of 96 bits as shipped: two normal components with the third's sign, and view depth, as half floats.
+#include "passes/frame_images.h"
 #include "passes/gbuffer/fill.h"
+#include "passes/graph/graph.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::gbuffer {
@@ -26,13 +29,13 @@ Technique packed() {
                 "degrees, and "
                 "depth by 1/2048 of itself.",
             .params = fill_params(),
-            .points = {"attributes=sample"},
+            .variants = {"attributes=sample"},
             .declare = declare,
             .model = packed_model,
             .tolerance = {.rmse = 1.5e-3,
                           .worst = 0.045,
                           .because =
-                              "a float on a rounding boundary takes the neighbouring half: where z of the normal goes to 0 that "
+                              "a float on a rounding boundary takes the neighboring half: where z of the normal goes to 0 that "
                               "is up to 0.044 of it (sqrt(2 * 2^-10)); colors as in 8 bits sRGB, 0.0087 linear"}};
 }
 

@@ -77,7 +77,7 @@ TEST(PackedGBuffer, NoValueIsSubnormalOrInfinite) {
     EXPECT_EQ(nearest_half(1e-9), 0);
     EXPECT_EQ(nearest_half(4e-5), 0x1p-14);
     EXPECT_EQ(nearest_half(1e9), 65504);
-    EXPECT_EQ(nearest_half(1 + 0x1p-11), 1) << "a tie goes to the even neighbour";
+    EXPECT_EQ(nearest_half(1 + 0x1p-11), 1) << "a tie goes to the even neighbor";
     EXPECT_EQ(nearest_half(1 + 3 * 0x1p-11), 1 + 0x1p-9);
 }
 

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
 #include "passes/gbuffer/codes.h"
 #include "passes/gbuffer/layout_model.h"
 #include "passes/gbuffer/wide/wide.shared.h"
 #include "passes/reference/place_code.h"
-#include "passes/technique.h"
+#include "passes/stage_input.h"
 
 namespace strata::gbuffer {
 namespace {

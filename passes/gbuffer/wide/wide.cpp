@@ -1,5 +1,8 @@
 // G-buffer of 160 bits as it was before it was optimized: position and normal whole, in half floats.
+#include "passes/frame_images.h"
 #include "passes/gbuffer/fill.h"
+#include "passes/graph/graph.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::gbuffer {
@@ -43,17 +46,16 @@ Technique wide() {
         .summary =
             "Stores position and normal whole, as half floats: nothing to reconstruct, 1.7 times the memory of a 96-bit layout.",
         .params = fill_params(),
-        .points = {"attributes=sample"},
+        .variants = {"attributes=sample"},
         .claims = {.ratios = ratios()},
         .declare = declare,
         .model = wide_model,
         .tolerance = {
             .rmse = 1.5e-3,
             .worst = 0.025,
-            .because =
-                "a float on a rounding boundary takes the neighbouring code: 1/255 on the sRGB curve is 0.02 of a mean of "
-                "0.15; a position moves by at most 0.012 pixel of 0.6, because texels are undecided where the neighbouring "
-                "half of one coordinate moves it by 0.004"}};
+            .because = "a float on a rounding boundary takes the neighboring code: 1/255 on the sRGB curve is 0.02 of a mean of "
+                       "0.15; a position moves by at most 0.012 pixel of 0.6, because texels are undecided where the neighboring "
+                       "half of one coordinate moves it by 0.004"}};
 }
 
 }  // namespace strata::gbuffer

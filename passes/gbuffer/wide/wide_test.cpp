@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "capture_format/frame.h"
 #include "passes/gbuffer/codes.h"
 #include "passes/gbuffer/wide/model.h"
 #include "passes/gbuffer/wide/wide.shared.h"

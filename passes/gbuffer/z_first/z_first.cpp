@@ -1,5 +1,8 @@
 // G-buffer of 96 bits as the X-Ray engine had it later: z of the normal as it is, x with the sign of y.
+#include "passes/frame_images.h"
 #include "passes/gbuffer/fill.h"
+#include "passes/graph/graph.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::gbuffer {
@@ -26,13 +29,13 @@ Technique z_first() {
             "Stores z and x of the normal and rebuilds y: normals of level walls, which a level camera sees most, are off by up "
             "to 1.9 degrees.",
         .params = fill_params(),
-        .points = {"attributes=sample"},
+        .variants = {"attributes=sample"},
         .declare = declare,
         .model = z_first_model,
         .tolerance = {.rmse = 1.5e-3,
                       .worst = 0.11,
                       .because =
-                          "a float on a rounding boundary takes the neighbouring half: where y of the normal goes to 0 that "
+                          "a float on a rounding boundary takes the neighboring half: where y of the normal goes to 0 that "
                           "is up to 0.044 of it (sqrt(2 * 2^-10)), against a root mean square of 0.42 with the background"}};
 }
 

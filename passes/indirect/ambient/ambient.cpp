@@ -1,5 +1,9 @@
-// No bounced light: the hemisphere, which combine adds itself, is all that surfaces get beside the lights.
+
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
+// No bounced light: the hemisphere, which combine adds itself, is all that surfaces get beside the lights.
 
 namespace strata::indirect {
 

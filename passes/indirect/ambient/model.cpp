@@ -1,5 +1,8 @@
+
+#include "capture_format/frame/frame.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 // No bounced light anywhere.
-#include "passes/technique.h"
 
 namespace strata::indirect {
 

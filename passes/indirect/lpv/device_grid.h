@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
 #include "passes/indirect/lpv/lpv.shared.h"
@@ -52,12 +54,12 @@ struct DeviceGrid {
 };
 
 /// As many threads, or as many groups as the gate of a grid that is kept has in this frame.
-ComputePass gated(ComputePass, const DeviceGrid&, std::uint32_t gate, Extent threads);
+ComputeStep gated(ComputeStep, const DeviceGrid&, std::uint32_t gate, Extent threads);
 
 /// Fixes what passes/indirect/ways.glsl declares.
-template <typename Pass>
-Pass& fix_blockers(Pass&& pass, const FrameImages& frame) {
-    return pass.fixes("blocker_count", static_cast<std::uint32_t>(frame.recorded->blockers.size()))
+template <typename Builder>
+Builder& fix_blockers(Builder&& builder, const FrameImages& frame) {
+    return builder.fixes("blocker_count", static_cast<std::uint32_t>(frame.recorded->blockers.size()))
         .fixes("portal_count", static_cast<std::uint32_t>(frame.recorded->portals.size()));
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light_volume.h"
+
 namespace strata::indirect::in_double {
 namespace {
 

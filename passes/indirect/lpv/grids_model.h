@@ -6,6 +6,12 @@
 
 #include "passes/indirect/cells_model.h"
 
+namespace strata {
+
+struct Frame;  // capture_format/frame.h
+
+}  // namespace strata
+
 namespace strata::indirect::in_double {
 
 /// Local volumes in the order of the frame, then the cascades of global volumes, finest first.

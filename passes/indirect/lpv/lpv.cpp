@@ -4,9 +4,13 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/core.h>
 #include <fmt/format.h>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/choice_names.h"
+#include "passes/frame_images.h"
 #include "passes/indirect/bounces.h"
 #include "passes/indirect/lpv/apply/apply.h"
 #include "passes/indirect/lpv/occlusion/small_portals.h"
@@ -16,6 +20,8 @@
 #include "passes/indirect/lpv/views/surface_views.h"
 #include "passes/indirect/lpv/volumes.h"
 #include "passes/scene/scene_facts.h"
+#include "passes/stage_input.h"
+#include "passes/stages.h"
 #include "passes/technique.h"
 
 namespace strata::indirect {
@@ -40,10 +46,10 @@ constexpr auto cell_scales = choice_names({{cells_half, "1/2"}, {cells_recorded,
 constexpr auto storages = choice_names({{storage_float, "float"}, {storage_half, "half"}});
 constexpr auto tap_rules = choice_names({{taps_all, "all"}, {taps_visible, "visible"}});
 
-/// Turns of loops of a fragment that all blockers of the frame are near (passes/indirect/near_blockers.glsl); the last turn of
-/// each loop only finds that it is over. Lanes of a vector take their turns together: each blocker may be that with the most
-/// portals.
-std::uint64_t turns_of_grid(const Frame& frame) {
+/// Iterations of loops of a fragment that all blockers of the frame are near (passes/indirect/near_blockers.glsl); the last
+/// iteration of each loop only finds that it is over. Lanes of a vector take their iterations together: each blocker may be that
+/// with the most portals.
+std::uint64_t iterations_of_grid(const Frame& frame) {
     std::vector<std::uint64_t> own(frame.blockers.size() + 1);
     for (const Portal& portal : frame.portals) ++own[std::min<std::size_t>(portal.blocker, frame.blockers.size())];
     const std::uint64_t halvings = std::bit_width(frame.portals.size()), of_way = halvings + 1 + std::ranges::max(own) + 1;
@@ -53,17 +59,18 @@ std::uint64_t turns_of_grid(const Frame& frame) {
 
 /// A transparent fragment asks about the way to eight cells of each grid, after its lights, and has no counter that tells when a
 /// driver ends its loops.
-std::optional<std::string> beyond_device(const FrameImages& images, const Settings& settings) {
+std::optional<Error> beyond_device(const FrameImages& images, const Settings& settings) {
     const Frame& frame = *images.recorded;
     const bool asks_taps = settings.as<LpvParams>().taps == taps_visible;
     if (!asks_taps || has(images.capabilities, Capability::long_loops)) return std::nullopt;
     if (info(Stage::transparency).unwanted(*images.features)) return std::nullopt;
-    const std::uint64_t turns = images.facts->light_turns() + light_grids(frame).size() * turns_of_grid(frame);
-    if (turns <= most_short_turns) return std::nullopt;
-    return fmt::format(
-        "transparent fragments test {} blockers and {} portals per cell of a light volume: with their lights up to {} loop "
-        "iterations per fragment, and this device ends loops after {}; choose taps=all",
-        frame.blockers.size(), frame.portals.size(), turns, most_short_turns);
+    const std::uint64_t iterations = images.facts->light_iterations() + light_grids(frame).size() * iterations_of_grid(frame);
+    if (iterations <= most_short_iterations) return std::nullopt;
+    return fail(Fault::device_lacks, "device.short_loops",
+                "transparent fragments test {blockers} blockers and {portals} portals per cell of a light volume: with their "
+                "lights up to "
+                "{iterations} loop iterations per fragment, and this device ends loops after {limit}; choose taps=all",
+                frame.blockers.size(), frame.portals.size(), iterations, most_short_iterations);
 }
 
 void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
@@ -199,29 +206,29 @@ Technique lpv() {
                                               .help = "format of light in cells; float: 32 bits; half: 16 bits, scaled by the "
                                                       "brightest cell: less than half the memory",
                                               .choices = storages})},
-        .points = {"iterations=8",
-                   "iterations=32",
-                   "iterations=64",
-                   "propagation=linear",
-                   "propagation=clamped",
-                   "faces=exact",
-                   "occlusion=none",
-                   "occlusion=fuzzy",
-                   "occlusion=both",
-                   "taps=all",
-                   "occlusion=none taps=all",
-                   "map_size=64",
-                   "irradiance=face",
-                   "irradiance=face iterations=8",
-                   "cell_scale=2",
-                   "cell_scale=1/2",
-                   "cell_scale=1/2 iterations=64",
-                   "cell_scale=1/2 irradiance=face",
-                   "apply_resolution=half",
-                   "damping=2",
-                   "bounces=2",
-                   "relight=changed",
-                   "cell_storage=half"},
+        .variants = {"iterations=8",
+                     "iterations=32",
+                     "iterations=64",
+                     "propagation=linear",
+                     "propagation=clamped",
+                     "faces=exact",
+                     "occlusion=none",
+                     "occlusion=fuzzy",
+                     "occlusion=both",
+                     "taps=all",
+                     "occlusion=none taps=all",
+                     "map_size=64",
+                     "irradiance=face",
+                     "irradiance=face iterations=8",
+                     "cell_scale=2",
+                     "cell_scale=1/2",
+                     "cell_scale=1/2 iterations=64",
+                     "cell_scale=1/2 irradiance=face",
+                     "apply_resolution=half",
+                     "damping=2",
+                     "bounces=2",
+                     "relight=changed",
+                     "cell_storage=half"},
         .counters =
             {counter<&LpvCounters::injected>(
                  {.name = "injected", .help = "virtual point lights (VPLs) injected, summed over all grids"}),

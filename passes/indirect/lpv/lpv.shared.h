@@ -33,26 +33,6 @@ const uint cells_double = 2u;
 const uint storage_float = 0u;  // cells hold 32-bit floats, W
 const uint storage_half = 1u;   // half floats in units of a power of two W (stored_cells.glsl)
 
-struct LpvParams {
-    uint iterations;  // 0: as the capture's volume says
-    uint propagation;
-    uint faces;
-    uint occlusion;
-    uint taps;
-    uint map_size;    // texels a side of reflective shadow maps
-    float injection;  // cells along the normal of what is injected
-    uint irradiance;
-    uint macro_cells;  // whether taps ask only the blockers of their macro-cell
-    uint apply_resolution;
-    uint relight;
-    uint slice;      // steps of propagation per frame with relight_changed; 0: all of them
-    float damping;   // exponent; 0: off
-    uint tap_tiles;  // whether tiles near no blocker have a shader that asks none
-    uint bounces;
-    uint cell_scale;    // cells_...
-    uint cell_storage;  // storage_...
-};
-
 // Vertices of a reflective shadow map.
 struct MapPush {
     mat4 to_clip;  // of view space
@@ -63,7 +43,7 @@ struct InjectPush {
     GridPlace grid;
     uint light;
     vec2 slopes;       // of a map's sides; 0 for parallel light
-    float texel_area;  // of parallel light, square metres across it
+    float texel_area;  // of parallel light, square meters across it
     float fixed_one;   // 1 in the fixed point of the grid's sums: a power of two
     float bias;
 };
@@ -105,7 +85,7 @@ struct EnergySum {
 
 struct ApplyPush {
     GridPlace grid;
-    float border;  // metres over which the grid fades at its border
+    float border;  // meters over which the grid fades at its border
     uint number;   // of the grid, from 1
 };
 

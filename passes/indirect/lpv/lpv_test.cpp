@@ -8,7 +8,10 @@
 
 #include "passes/indirect/lpv/injection/emission_model.h"
 #include "passes/indirect/lpv/injection/reflective_map_model.h"
+#include "passes/indirect/lpv/lpv.shared.h"
 #include "passes/indirect/lpv/model.h"
+#include "passes/reference/image.h"
+#include "passes/stage_input.h"
 #include "tests/support/one_pixel.h"
 
 namespace strata::indirect::in_double {
@@ -247,7 +250,7 @@ TEST(Emission, OfSpotsFadesTowardsTheirEdges) {  // T0.2
 }
 
 TEST(LightVolumes, GiveOfAUniformFieldPiTimesItsRadianceByCells) {
-    // Radiance 2 everywhere goes through a cell of half a metre as 2 W/sr per square metre of its section, 1.5 of its face in the
+    // Radiance 2 everywhere goes through a cell of half a meter as 2 W/sr per square meter of its section, 1.5 of its face in the
     // mean.
     const double size = 0.5, radiance = 2, sent = radiance * 1.5 * size * size;
     LitGrid lit{.grid = {.cells = {4, 4, 4}, .cell_size = size}};

@@ -12,6 +12,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/light_types.h"
 #include "passes/indirect/lpv/apply/half_resolution_model.h"
 #include "passes/indirect/lpv/injection/bounce_model.h"
 #include "passes/indirect/lpv/injection/reflective_map_model.h"
@@ -21,6 +23,8 @@
 #include "passes/indirect/lpv/surfels/surfels_model.h"
 #include "passes/reference/decoded.h"
 #include "passes/reference/light_sets.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 
 namespace strata::indirect {
 namespace in_double {
@@ -44,7 +48,7 @@ public:
     Sources(const Frame& frame, const LpvParams& params) : maps_(frame, params.map_size) {
         for (const Light& light : shining_lights(frame)) {
             if (!adds_light(light)) continue;
-            if (light.type == LightType::directional) {
+            if (!has_range(light.type)) {
                 directional_.push_back(light);
             } else {
                 const std::vector<VirtualLight> reflected = maps_.of_local(light);

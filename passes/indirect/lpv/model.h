@@ -3,9 +3,15 @@
 
 #include <vector>
 
-#include "passes/indirect/lpv/lpv.shared.h"
+#include "passes/image_set.h"
+#include "passes/indirect/lpv/lpv_params.h"
 #include "passes/indirect/reading_model.h"
-#include "passes/technique.h"
+
+namespace strata {
+
+struct StageInput;  // passes/stage_input.h
+
+}  // namespace strata
 
 namespace strata::indirect::in_double {
 

@@ -1,6 +1,10 @@
 #include "passes/indirect/lpv/ratios.h"
 
-#include "capture_format/frame.h"
+#include <cstddef>
+
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/light_volume.h"
 
 namespace strata::indirect {
 namespace {

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "passes/frame_images.h"
 #include "passes/indirect/lpv/apply/apply.h"
 #include "passes/indirect/lpv/injection/bounce.h"
 #include "passes/indirect/lpv/injection/injection.h"
 #include "passes/indirect/lpv/kept/kept.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
-#include "passes/scene/scene_facts.h"
 
 namespace strata::indirect {
 namespace {
@@ -56,8 +58,8 @@ bool is_axial(const LightGrid& grid, std::uint32_t occlusion) {
     return kind == occlusion_axial || kind == occlusion_both;
 }
 
-ComputePass gated(ComputePass pass, const DeviceGrid& grid, std::uint32_t gate, Extent threads) {
-    return grid.gates ? pass.indirect(grid.gates, gate * sizeof(uvec3)) : pass.over(threads);
+ComputeStep gated(ComputeStep builder, const DeviceGrid& grid, std::uint32_t gate, Extent threads) {
+    return grid.gates ? builder.indirect(grid.gates, gate * sizeof(uvec3)) : builder.over(threads);
 }
 
 std::vector<DeviceGrid> make_grids(Graph& graph, const FrameImages& frame, const LpvParams& params) {

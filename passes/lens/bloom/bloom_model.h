@@ -5,7 +5,6 @@
 
 #include "passes/lens/lens.shared.h"
 #include "passes/reference/image.h"
-#include "passes/stages.h"
 
 namespace strata::lens {
 

@@ -5,11 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame_features.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/lens/lens.shared.h"
+
 namespace strata::lens {
 namespace {
 
-ComputePass read_color(ComputePass pass, const FrameImages& frame) {
-    return pass.samples("color", frame.color).samples("exposure", frame.exposure).fixes("has_exposure", frame.exposure ? 1u : 0u);
+ComputeStep read_color(ComputeStep builder, const FrameImages& frame) {
+    return builder.samples("color", frame.color)
+        .samples("exposure", frame.exposure)
+        .fixes("has_exposure", frame.exposure ? 1u : 0u);
 }
 
 Extent half_of(const Extent& extent) { return {(extent.width + 1) / 2, (extent.height + 1) / 2}; }
@@ -85,8 +93,8 @@ Image xray_glow(Graph& graph, const FrameImages& frame) {
 }
 
 /// For shaders that include passes/lens/bloom/added.glsl.
-ComputePass read_glow(ComputePass pass, const FrameImages& frame, const LensParams& params, const Image& glow) {
-    return pass.samples("glow", glow)
+ComputeStep read_glow(ComputeStep builder, const FrameImages& frame, const LensParams& params, const Image& glow) {
+    return builder.samples("glow", glow)
         .samples("exposure", frame.exposure)
         .fixes("form", params.bloom)
         .fixes("has_exposure", frame.exposure ? 1u : 0u)

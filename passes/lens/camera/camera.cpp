@@ -1,11 +1,16 @@
 // The lens of a camera: exposure, depth of field, distortion and bloom, each where the frame asks for it. Light is measured
 // before the lens; defocus and distortion happen in the lens, and what it scatters is scattered from the picture that they made.
+#include "capture_format/frame/frame.h"
 #include "passes/choice_names.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
 #include "passes/lens/bloom/glow.h"
 #include "passes/lens/camera/views.h"
 #include "passes/lens/depth_of_field/focus.h"
 #include "passes/lens/distortion/radial.h"
 #include "passes/lens/exposure/adaptation.h"
+#include "passes/lens/lens.shared.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::lens {
@@ -136,10 +141,10 @@ Technique camera() {
                 "Adapts exposure, blurs what is out of focus, bends and glows, each where the frame asks for it; what is hidden "
                 "behind a blurred surface is guessed from beside it.",
             .params = params(),
-            .points = {"exposure=xray", "exposure=off", "exposure_amount=1 exposure_grey=0.2", "bloom=xray", "bloom=off",
-                       "bloom_reach=0.03", "focus=xray", "focus=off", "focus_taps=16", "focus_taps=64", "focus_taps=256",
-                       "focus_reach=0.03", "distortion=off", "k1=-0.2", "bloom=off focus=off distortion=off",
-                       "exposure=xray bloom=xray focus=xray distortion=off"},
+            .variants = {"exposure=xray", "exposure=off", "exposure_amount=1 exposure_grey=0.2", "bloom=xray", "bloom=off",
+                         "bloom_reach=0.03", "focus=xray", "focus=off", "focus_taps=16", "focus_taps=64", "focus_taps=256",
+                         "focus_reach=0.03", "distortion=off", "k1=-0.2", "bloom=off focus=off distortion=off",
+                         "exposure=xray bloom=xray focus=xray distortion=off"},
             .views = camera_views(),
             .tables = camera_tables(),
             .abilities = {.is_time_unit = true},

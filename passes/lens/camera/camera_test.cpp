@@ -1,7 +1,12 @@
 // Facts of the lens as a whole: which steps a frame pays for, and the order of its effects.
+#include <utility>
+
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
 #include "passes/lens/lens.shared.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "tests/support/one_pixel.h"
 

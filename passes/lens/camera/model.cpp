@@ -1,9 +1,11 @@
 // The lens in double: its effects in the order that light meets them.
+#include "capture_format/frame/frame.h"
 #include "passes/lens/bloom/bloom_model.h"
 #include "passes/lens/depth_of_field/focus_model.h"
 #include "passes/lens/distortion/radial_model.h"
 #include "passes/lens/exposure/exposure_model.h"
-#include "passes/technique.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 
 namespace strata::lens {
 

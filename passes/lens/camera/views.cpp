@@ -1,8 +1,11 @@
 #include "passes/lens/camera/views.h"
 
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
 #include "passes/lens/bloom/glow.h"
 #include "passes/lens/depth_of_field/focus.h"
 #include "passes/lens/exposure/adaptation.h"
+#include "passes/settings.h"
 
 namespace strata::lens {
 namespace {

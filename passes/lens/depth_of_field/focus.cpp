@@ -3,6 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame_features.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/lens/lens.shared.h"
+
 namespace strata::lens {
 namespace {
 
@@ -21,8 +27,8 @@ BlurPush push_of(const FrameImages& frame, const LensParams& params) {
             .most = params.focus_reach * float(view.height)};
 }
 
-ComputePass read_samples(ComputePass pass, const FrameImages& frame) {
-    return pass.samples("color", frame.color)
+ComputeStep read_samples(ComputeStep builder, const FrameImages& frame) {
+    return builder.samples("color", frame.color)
         .samples("depth_layers", frame.depth_layers)
         .fixes("has_depth", frame.depth_layers ? 1u : 0u);
 }
@@ -87,7 +93,7 @@ Image show_taps(Graph& graph, const FrameImages& frame, const LensParams& params
         return picture;
     }
     const bool gathers = params.focus == focus_gather;
-    ComputePass count = read_samples(
+    ComputeStep count = read_samples(
         graph.compute(gathers ? "lens/depth_of_field/show_taps.comp" : "lens/depth_of_field/show_xray_taps.comp"), frame);
     count.stores("shown", picture).push(push_of(frame, params)).over(frame.extent);
     if (gathers) count.samples("spread", graph.find_image(spread_name)).fixes("taps", tap_counts[params.focus_taps]);

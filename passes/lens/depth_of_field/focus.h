@@ -1,8 +1,15 @@
 // Blur of what is not in focus (docs/algorithms/deferred.md 8.7).
 #pragma once
 
-#include "passes/frame_images.h"
-#include "passes/lens/lens.shared.h"
+#include "passes/graph/step.h"
+#include "passes/lens/lens_params.h"
+
+namespace strata {
+
+class Graph;         // passes/graph/graph.h
+struct FrameImages;  // passes/frame_images.h
+
+}  // namespace strata
 
 namespace strata::lens {
 

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 #include <tbb/parallel_for.h>
 
+#include "capture_format/frame/frame.h"
 #include "passes/lens/depth_of_field/xray_model.h"
+#include "passes/lens/lens.shared.h"
 #include "passes/reference/pcg.h"
+#include "passes/stage_input.h"
 
 namespace strata::lens {
 namespace {

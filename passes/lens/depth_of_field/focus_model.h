@@ -1,9 +1,15 @@
 // Depth of field in double, from docs/algorithms/deferred.md 8.7 and passes/lens/camera/README.md.
 #pragma once
 
-#include "passes/lens/lens.shared.h"
+#include "passes/lens/lens_params.h"
 #include "passes/reference/image.h"
-#include "passes/stages.h"
+
+namespace strata {
+
+struct Frame;       // capture_format/frame.h
+struct StageInput;  // passes/stage_input.h
+
+}  // namespace strata
 
 namespace strata::lens {
 

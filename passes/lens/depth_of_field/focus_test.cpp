@@ -6,6 +6,8 @@
 #include "passes/lens/depth_of_field/focus_model.h"
 #include "passes/lens/depth_of_field/truth.h"
 #include "passes/lens/depth_of_field/xray_model.h"
+#include "passes/lens/lens.shared.h"
+#include "passes/stage_input.h"
 #include "tests/support/one_pixel.h"
 
 namespace strata::lens {

@@ -6,8 +6,11 @@
 #include <gtest/gtest.h>
 
 #include "capture_format/view.h"
+#include "passes/image_set.h"
 #include "passes/lens/depth_of_field/focus_model.h"
 #include "passes/lens/depth_of_field/truth.h"
+#include "passes/lens/lens.shared.h"
+#include "passes/stage_input.h"
 #include "tests/support/thin_lens.h"
 
 namespace strata::lens {

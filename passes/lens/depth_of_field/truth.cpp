@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <vector>
 
 #include <tbb/parallel_for.h>
 
 #include "passes/lens/depth_of_field/focus_model.h"
+#include "passes/stage_input.h"
 
 namespace strata::lens {
 namespace {

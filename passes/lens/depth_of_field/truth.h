@@ -1,7 +1,13 @@
 // What a thin lens makes of a picture with depth, by its definition.
 #pragma once
 
-#include "passes/stages.h"
+#include "passes/reference/image.h"
+
+namespace strata {
+
+struct StageInput;  // passes/stage_input.h
+
+}  // namespace strata
 
 namespace strata::lens {
 

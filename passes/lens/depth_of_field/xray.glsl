@@ -8,7 +8,7 @@ const vec2 xray_taps[12] = vec2[12](vec2(-0.326212, -0.405810), vec2(-0.840144, 
                                     vec2(0.519456, 0.767022), vec2(0.185461, -0.893124), vec2(0.507431, 0.064425),
                                     vec2(0.896420, 0.412458), vec2(-0.321940, -0.932615), vec2(-0.791559, -0.597710));
 
-// Metres; what has no surface counts as near as xray_sky.
+// Meters; what has no surface counts as near as xray_sky.
 float xray_depth(ivec3 at) {
     const float d = depth_at(at);
     return d > 0.0 ? view.near / d : xray_sky;

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
+#include "capture_format/frame/frame.h"
 #include "passes/lens/depth_of_field/focus_model.h"
 #include "passes/lens/distortion/radial_model.h"
+#include "passes/stage_input.h"
 
 namespace strata::lens {
 namespace {

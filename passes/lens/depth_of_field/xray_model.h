@@ -1,7 +1,13 @@
 // X-Ray's depth of field in double.
 #pragma once
 
-#include "passes/stages.h"
+#include "passes/reference/image.h"
+
+namespace strata {
+
+struct StageInput;  // passes/stage_input.h
+
+}  // namespace strata
 
 namespace strata::lens {
 

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/lens/lens.shared.h"
+
 namespace strata::lens {
 
 double radial_scale(double k1, double width, double height) {

@@ -1,8 +1,14 @@
 // Straight lines that a lens bends (docs/algorithms/deferred.md 8.8).
 #pragma once
 
-#include "passes/frame_images.h"
-#include "passes/lens/lens.shared.h"
+#include "passes/lens/lens_params.h"
+
+namespace strata {
+
+class Graph;         // passes/graph/graph.h
+struct FrameImages;  // passes/frame_images.h
+
+}  // namespace strata
 
 namespace strata::lens {
 

@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/lens/lens.shared.h"
+
 namespace strata::lens {
 namespace {
 
@@ -29,7 +34,7 @@ AdaptPush push_of(const FrameImages& frame, const LensParams& params) {
             .tiles = tiles.width * tiles.height,
             .speed = frame.recorded->lens.exposure_speed,
             .amount = params.exposure_amount,
-            .grey = params.exposure_grey};
+            .gray = params.exposure_grey};
 }
 
 }  // namespace

@@ -1,8 +1,15 @@
 // Exposure that follows the picture over frames (docs/algorithms/deferred.md 8.5).
 #pragma once
 
-#include "passes/frame_images.h"
-#include "passes/lens/lens.shared.h"
+#include "passes/graph/step.h"
+#include "passes/lens/lens_params.h"
+
+namespace strata {
+
+class Graph;         // passes/graph/graph.h
+struct FrameImages;  // passes/frame_images.h
+
+}  // namespace strata
 
 namespace strata::lens {
 

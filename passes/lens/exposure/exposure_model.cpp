@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
+#include "passes/lens/lens.shared.h"
 #include "passes/luminance.h"
+#include "passes/stage_input.h"
 
 namespace strata::lens {
 namespace {
@@ -22,9 +25,9 @@ Before before_of(const StageInput& input) {
 
 }  // namespace
 
-double exposure_target(double luminance, double amount, double grey) {
+double exposure_target(double luminance, double amount, double gray) {
     constexpr double black = 1e-4;
-    const double over = 1 + (grey - 1) * amount, slope = amount, at_black = (1 - amount) + black * amount;
+    const double over = 1 + (gray - 1) * amount, slope = amount, at_black = (1 - amount) + black * amount;
     return std::clamp(over / (luminance * slope + at_black), 1. / 128, 20.);
 }
 

@@ -1,13 +1,22 @@
 // Exposure in double, from docs/algorithms/deferred.md 8.5.
 #pragma once
 
-#include "passes/lens/lens.shared.h"
-#include "passes/stages.h"
+#include <optional>
+
+#include "passes/lens/lens_params.h"
+
+namespace strata {
+
+struct Frame;           // capture_format/frame.h
+struct ReferenceImage;  // passes/reference/image.h
+struct StageInput;      // passes/stage_input.h
+
+}  // namespace strata
 
 namespace strata::lens {
 
 /// What the curve asks for at a mean luminance; 1/128 to 20.
-double exposure_target(double luminance, double amount, double grey);
+double exposure_target(double luminance, double amount, double gray);
 /// The share of the way to the target after `seconds`.
 double exponential_share(double seconds, double speed);
 double xray_share(double share_before, double seconds, double speed);

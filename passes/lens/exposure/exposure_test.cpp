@@ -1,16 +1,18 @@
 // Facts of exposure (docs/algorithms/deferred.md 8.5, T-PP-2).
 #include "passes/lens/exposure/exposure_model.h"
+#include "passes/lens/lens.shared.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "passes/stage_input.h"
 #include "tests/support/one_pixel.h"
 
 namespace strata::lens {
 namespace {
 
-constexpr double amount = .7, grey = 1;
+constexpr double amount = .7, gray = 1;
 
 LensParams with(std::uint32_t form) { return {.exposure = form, .exposure_amount = .7f, .exposure_grey = 1}; }
 
@@ -19,13 +21,13 @@ double of(const StageInput& input, std::uint32_t form = exposure_exponential) { 
 TEST(Exposure, TargetsAreThoseOfTheChapterToTheirDigits) {
     for (const glm::dvec2 row : {glm::dvec2(0, 3.332556), glm::dvec2(.1, 2.702191), glm::dvec2(.5, 1.538296),
                                  glm::dvec2(1, .999930), glm::dvec2(2, .588211)})
-        EXPECT_NEAR(exposure_target(row.x, amount, grey), row.y, 1e-6) << "luminance " << row.x;
+        EXPECT_NEAR(exposure_target(row.x, amount, gray), row.y, 1e-6) << "luminance " << row.x;
 }
 
 TEST(Exposure, IsBoundedWhereXrayDiscardsItsBounds) {
     EXPECT_DOUBLE_EQ(exposure_target(0, 1, 1), 20);
-    EXPECT_DOUBLE_EQ(exposure_target(1e9, amount, grey), 1. / 128);
-    EXPECT_DOUBLE_EQ(exposure_target(.3, 0, grey), 1) << "without an amount, exposure stays as recorded";
+    EXPECT_DOUBLE_EQ(exposure_target(1e9, amount, gray), 1. / 128);
+    EXPECT_DOUBLE_EQ(exposure_target(.3, 0, gray), 1) << "without an amount, exposure stays as recorded";
 }
 
 TEST(Exposure, SharesOfTheWayAreThoseOfTheChapter) {
@@ -74,7 +76,7 @@ TEST(Exposure, XrayMeasuresWhatTheLastExposureShows) {
     const Frame frame = one_pixel(1);
     ImageSet before{{"color", ReferenceImage(1, 1, 1, glm::dvec4(.5))}, {"exposure", ReferenceImage(1, 1, 1, {2, .1, .05, 0})}};
     const double share = .9 * .05 + .1 * .1;
-    EXPECT_NEAR(of({frame, before}, exposure_xray), 2 + (exposure_target(.9, amount, grey) - 2) * share, 1e-6);
+    EXPECT_NEAR(of({frame, before}, exposure_xray), 2 + (exposure_target(.9, amount, gray) - 2) * share, 1e-6);
 }
 
 TEST(Exposure, IsNotPoisonedByPixelsThatAreNoNumbers) {

@@ -23,7 +23,7 @@ vec2 measured_sum() {
 }
 
 float target_of(float luminance) {
-    const vec3 m = mix(vec3(1.0, 0.0, 1.0), vec3(push.grey, 1.0, exposure_low), push.amount);
+    const vec3 m = mix(vec3(1.0, 0.0, 1.0), vec3(push.gray, 1.0, exposure_low), push.amount);
     return clamp(m.x / (luminance * m.y + m.z), least_exposure, most_exposure);
 }
 

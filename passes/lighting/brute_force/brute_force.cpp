@@ -2,11 +2,14 @@
 #include "passes/choice_names.h"
 #include "passes/edges/routing/ratios.h"
 #include "passes/edges/routing/shade_samples.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/brute_force/brute_force.shared.h"
+#include "passes/lighting/brute_force/brute_force_params.h"
 #include "passes/lighting/every_light.h"
 #include "passes/lighting/material_table.h"
 #include "passes/scene/scene_facts.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::lighting {
@@ -55,7 +58,7 @@ Technique brute_force() {
                         .fallback = specular_colored,
                         .help = "color of a light in highlights: kept, or white as in a light buffer of four channels",
                         .choices = speculars})},
-        .points = {"materials=table", "specular=white", "materials=table specular=white"},
+        .variants = {"materials=table", "specular=white", "materials=table specular=white"},
         .counters = {counter<&BruteForceCounters::evaluations>({.name = "evaluations", .help = "lights times samples shaded"}),
                      counter<&BruteForceCounters::samples_shaded>(
                          {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"}),

@@ -15,12 +15,6 @@ const uint materials_table = 1u;
 const uint specular_colored = 0u;
 const uint specular_white = 1u;
 
-struct BruteForceParams {
-    uint routing;  // routing_* of passes/edges/routing/routing.shared.h
-    uint materials;
-    uint specular;
-};
-
 struct BruteForceCounters {
     uint evaluations;
     uint samples_shaded;

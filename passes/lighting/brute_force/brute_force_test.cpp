@@ -1,10 +1,11 @@
-// Facts of brute-force lighting, on its model: one Lambert pixel two metres away that faces the eye.
+// Facts of brute-force lighting, on its model: one Lambert pixel two meters away that faces the eye.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "passes/technique.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 #include "tests/support/one_pixel.h"
 
 namespace strata::lighting {
@@ -26,7 +27,7 @@ double lit(const Frame& frame, const ImageSet& before, std::uint32_t sample = 0)
     return brute_force_model({frame, before}, {}).at("light").at(0, 0, sample).x;
 }
 
-/// Between the eye and the wall, a metre before it.
+/// Between the eye and the wall, a meter before it.
 Light lamp(LightType type) {
     Light light;
     light.type = type;
@@ -47,7 +48,7 @@ TEST(BruteForceLighting, TheSunGivesItsIrradianceOverPi) {
 TEST(BruteForceLighting, OmniLightsEndAtTheirRange) {
     Frame frame = one_pixel(1);
     frame.lights = {lamp(LightType::omni)};
-    // The distance is one metre: range = 1 / (d / r).
+    // The distance is one meter: range = 1 / (d / r).
     for (const glm::dvec2 row : {glm::dvec2(0.25, 0.99220276), glm::dvec2(0.5, 0.87890625), glm::dvec2(0.75, 0.46730042),
                                  glm::dvec2(0.9, 0.11826721), glm::dvec2(1, 0)}) {
         frame.lights[0].range = float(1 / row.x);

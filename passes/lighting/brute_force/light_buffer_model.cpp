@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "capture_format/light_types.h"
+#include "passes/lighting/brute_force/brute_force.shared.h"
 #include "passes/reference/brdf.h"
 #include "passes/reference/lights.h"
 #include "passes/reference/placed_light.h"
@@ -28,7 +30,7 @@ Arriving arriving(const Frame& frame, const SurfacePoint& surface, const Light& 
     white.base_color = glm::dvec3(1);
     const PlacedLight at = placed(frame, surface, light);
     Arriving arriving;
-    arriving.to_light = light.type == LightType::directional ? -glm::normalize(at.direction) : glm::normalize(at.offset);
+    arriving.to_light = glm::normalize(has_range(light.type) ? at.offset : -at.direction);
     arriving.cosine = glm::dot(white.normal, arriving.to_light);
     if (arriving.cosine > 0) arriving.irradiance = pi / arriving.cosine * reflected(frame, white, light);
     return arriving;

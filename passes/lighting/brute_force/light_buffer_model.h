@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-#include "passes/lighting/brute_force/brute_force.shared.h"
+#include "passes/lighting/brute_force/brute_force_params.h"
 #include "passes/lighting/material_table_model.h"
 #include "passes/reference/shade.h"
 

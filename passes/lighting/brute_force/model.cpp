@@ -1,7 +1,10 @@
 // Brute force in double: it is what every light gives.
+#include "passes/frame_images.h"
+#include "passes/lighting/brute_force/brute_force.shared.h"
 #include "passes/lighting/brute_force/light_buffer_model.h"
 #include "passes/lighting/every_light.h"
-#include "passes/technique.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 
 namespace strata::lighting {
 

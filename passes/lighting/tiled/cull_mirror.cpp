@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <bit>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/light_types.h"
+#include "passes/lighting/tiled/tiled.shared.h"
 #include "passes/shaders/light_features.shared.h"
 
 namespace strata::lighting {
@@ -17,8 +20,8 @@ void for_each_bit(std::uint32_t mask, Function&& function) {
 }
 
 glm::vec4 light_point(const LightRecord& light) {
-    const bool directional = light.type == static_cast<std::uint32_t>(LightType::directional);
-    return directional ? glm::vec4(-light.direction, 0) : glm::vec4(light.position, 1);
+    const bool is_placed = has_range(static_cast<LightType>(light.type));
+    return is_placed ? glm::vec4(light.position, 1) : glm::vec4(-light.direction, 0);
 }
 
 /// A light with a slot, and what is known of its blockers and portals.

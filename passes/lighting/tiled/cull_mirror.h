@@ -9,7 +9,9 @@
 
 #include "passes/lighting/tile_cell.h"
 #include "passes/lighting/tiled/tiled.shared.h"
+#include "passes/lighting/tiled/tiled_params.h"
 #include "passes/scene/light_records.h"
+#include "passes/shaders/scene/view.shared.h"
 
 namespace strata::lighting {
 
@@ -21,7 +23,7 @@ struct CullScene : LightRecords {
 
 /// What is lit in a tile.
 struct TileSurfaces {
-    std::vector<float> depths;  ///< view z of its samples, metres
+    std::vector<float> depths;  ///< view z of its samples, meters
     std::uint32_t models = 0;   ///< their features
 };
 

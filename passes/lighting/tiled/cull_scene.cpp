@@ -1,6 +1,8 @@
 #include "passes/lighting/tiled/cull_scene.h"
 
+#include "capture_format/frame/frame.h"
 #include "passes/scene/light_records.h"
+#include "passes/scene/scene_facts.h"
 
 namespace strata::lighting {
 namespace {
@@ -13,6 +15,6 @@ ViewRecord view_record(const View& v) {
 
 }  // namespace
 
-CullScene cull_scene(const Frame& frame) { return {light_records(frame), view_record(frame.view)}; }
+CullScene cull_scene(const Frame& frame) { return {light_records(frame, SceneFacts(frame).lights()), view_record(frame.view)}; }
 
 }  // namespace strata::lighting

@@ -1,7 +1,6 @@
 // A recorded frame as culling reads it.
 #pragma once
 
-#include "capture_format/frame.h"
 #include "passes/lighting/tiled/cull_mirror.h"
 
 namespace strata::lighting {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "capture_format/frame/light.h"
 #include "passes/edges/plain_pixels.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/tiled/modes.h"
 #include "passes/scene/scene_facts.h"

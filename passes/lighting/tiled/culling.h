@@ -3,9 +3,16 @@
 
 #include <cstdint>
 
-#include "passes/frame_images.h"
-#include "passes/graph/graph.h"
+#include "passes/graph/step.h"
 #include "passes/lighting/tiled/tiled.shared.h"
+#include "passes/lighting/tiled/tiled_params.h"
+
+namespace strata {
+
+class Graph;         // passes/graph/graph.h
+struct FrameImages;  // passes/frame_images.h
+
+}  // namespace strata
 
 namespace strata::lighting {
 

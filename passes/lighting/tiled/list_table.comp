@@ -1,6 +1,6 @@
 // Rows of the tables of lists: tile, light, and the light's blockers or portals that the tile's pixels test, 16 bits each. A tile
 // has as many rows as fit an image; what it does not use is no row. Rows go along x: of a group narrower than its vectors of
-// eight lavapipe 22.3 runs the missing lanes, too, which read zeros and walk records until it ends their loop after 65535 turns.
+// eight lavapipe 22.3 runs the missing lanes, too, which read zeros and walk records until it ends their loop after 65535 iterations.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/lighting/tiled/cull_mirror.h"
 #include "tests/support/random_lights.h"
 

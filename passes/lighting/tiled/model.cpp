@@ -4,10 +4,15 @@
 #include <algorithm>
 #include <vector>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/edges/plain_pixels.h"
+#include "passes/frame_images.h"
 #include "passes/lighting/every_light.h"
 #include "passes/lighting/tiled/cull_scene.h"
-#include "passes/technique.h"
+#include "passes/lighting/tiled/tiled.shared.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 
 namespace strata::lighting {
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "passes/lighting/tiled/tiled.shared.h"
+#include "passes/lighting/tiled/tiled_params.h"
 
 namespace strata::lighting {
 

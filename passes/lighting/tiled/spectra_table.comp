@@ -1,6 +1,6 @@
 // Rows of the table of spectra: spectrum, its tiles, its mode, what that has too much; most tiles first, then the smaller
 // spectrum. A thread per spectrum finds its rank by looking at all, four at a time: lavapipe 22.3 ends an invocation's loops,
-// all together, after 65535 turns.
+// all together, after 65535 iterations.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

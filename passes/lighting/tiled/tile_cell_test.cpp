@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstddef>
 #include <numbers>
 
 #include "tests/support/random_lights.h"

@@ -4,6 +4,7 @@
 
 #include "passes/choice_names.h"
 #include "passes/edges/plain_pixels.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/every_light.h"
 #include "passes/lighting/tiled/culling.h"
@@ -11,6 +12,7 @@
 #include "passes/lighting/tiled/ratios.h"
 #include "passes/lighting/tiled/views.h"
 #include "passes/shadows/filter.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::lighting {
@@ -29,9 +31,9 @@ constexpr auto branch_kinds = choice_names({{branches_specialized, "specialized"
 
 void shade(Graph& graph, FrameImages& frame, const TiledParams& params, const CulledTiles& culled, std::uint32_t mode) {
     const bool is_inline = params.shadows == shadows_inline;
-    ComputePass pass = graph.compute("lighting/tiled/shade.comp");
-    fix_shadow_filter(pass, frame.shadow_filter);
-    sample_edges(sample_gbuffer(pass, frame), frame)
+    ComputeStep builder = graph.compute("lighting/tiled/shade.comp");
+    fix_shadow_filter(builder, frame.shadow_filter);
+    sample_edges(sample_gbuffer(builder, frame), frame)
         .samples("visibility", is_inline ? Image{} : frame.visibility)
         .samples("shadow_maps", is_inline ? frame.shadow_maps : Image{})
         .updates("light", frame.light)
@@ -217,8 +219,8 @@ Technique tiled() {
             "Lists the lights of each 16x16-pixel tile, drops those that blockers hide from all of it, and shades it with a "
             "shader variant of few unneeded features. Exact; slow where depth jumps within a tile.",
         .params = params(),
-        .points = {"modes=1", "modes=16", "branches=uniform", "classify=off", "half_z=off", "prefilter=on", "shadows=inline",
-                   "blockers=tile_only", "overflow=drop"},
+        .variants = {"modes=1", "modes=16", "branches=uniform", "classify=off", "half_z=off", "prefilter=on", "shadows=inline",
+                     "blockers=tile_only", "overflow=drop"},
         .counters = counters(),
         .counter_bytes = sizeof(TiledCounters),
         .views = tiled_views(),

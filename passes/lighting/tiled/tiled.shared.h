@@ -29,20 +29,6 @@ const uint shadows_inline = 1u;
 const uint branches_specialized = 0u;
 const uint branches_uniform = 1u;
 
-struct TiledParams {
-    uint half_z;
-    uint blockers;
-    uint classify;
-    uint overflow;
-    uint prefilter;
-    uint shadows;
-    uint branches;
-    uint force;
-    uint modes;
-    uint mode_0, mode_1, mode_2, mode_3, mode_4, mode_5, mode_6, mode_7;
-    uint mode_8, mode_9, mode_10, mode_11, mode_12, mode_13, mode_14, mode_15;
-};
-
 // 16 by settings, and the one of all features where they lack it.
 const uint most_modes = 17u;
 // Of a tile nothing is shaded in.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/lighting/tiled/cull_mirror.h"
 #include "passes/lighting/tiled/culling.h"
 #include "passes/lighting/tiled/modes.h"

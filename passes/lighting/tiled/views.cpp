@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/core.h>
 #include <fmt/format.h>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/tiled/culling.h"
 #include "passes/lighting/tiled/views.shared.h"
 #include "passes/scene/scene_facts.h"
+#include "passes/settings.h"
 #include "passes/shaders/light_features.shared.h"
 
 namespace strata::lighting {

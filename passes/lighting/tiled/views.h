@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "passes/technique.h"
+#include "passes/debug_views.h"
 
 namespace strata::lighting {
 

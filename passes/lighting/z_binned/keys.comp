@@ -13,9 +13,9 @@ layout(push_constant, scalar) uniform Push { ZBinsPush push; };
 ZLight entry(uint i) {
     if (i >= push.lights) return ZLight(z_largest, z_largest, 0.0, i);
     const LightRecord light = lights[i];
-    if (light.type == light_directional) return ZLight(-z_largest, -z_largest, 0.0, i);
+    if (!light_has_range(light.type)) return ZLight(-z_largest, -z_largest, 0.0, i);
     float z = light.position.z, radius = light.range;
-    if (light.type == light_round_spot) {
+    if (light_has_round_cone(light.type)) {
         const vec2 around = sphere_around_cone(light.cos_outer, light.range);
         z += light.direction.z * around.x;
         radius = around.y * (1.0 + 1e-5) + 1e-5 * light.range;  // rounding: the window is not 0 yet there

@@ -1,6 +1,6 @@
-// The method in double: culling loses nothing, so it is every light on every sample that is shaded.
+// The technique in double: culling loses nothing, so it is every light on every sample that is shaded.
 #include "passes/lighting/every_light.h"
-#include "passes/technique.h"
+#include "passes/stage_input.h"
 
 namespace strata::lighting {
 

@@ -1,10 +1,12 @@
 // Lights in bins of view depth and tiles of the screen; a sample shades the lights that both of its hold.
 #include "passes/choice_names.h"
 #include "passes/edges/routing/shade_samples.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/every_light.h"
 #include "passes/lighting/z_binned/z_bins.h"
 #include "passes/scene/scene_facts.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::lighting {
@@ -19,8 +21,8 @@ constexpr auto bounds = choice_names({{bounds_frustum, "frustum"}, {bounds_depth
 constexpr auto merges = choice_names({{merge_lanes, "lanes"}, {merge_subgroup, "subgroup"}});
 
 /// To a step that walks a sample's lights.
-ComputePass bind_lists(ComputePass pass, const FrameImages& frame, const ZBins& lists) {
-    return sample_gbuffer(pass, frame)
+ComputeStep bind_lists(ComputeStep builder, const FrameImages& frame, const ZBins& lists) {
+    return sample_gbuffer(builder, frame)
         .samples("visibility", frame.visibility)
         .loads("Sorted", lists.sorted)
         .loads("Header", lists.header)
@@ -146,7 +148,7 @@ Technique z_binned() {
                       "loop over lights; lanes: each lane walks its own list; subgroup: all lanes walk the union of their lists",
                   .choices = merges}),
              param<&ZBinnedParams::routing>(edges::routing_row)},
-        .points = {"spacing=logarithmic", "bounds=frustum", "bins=256", "tile=32", "merge=lanes"},
+        .variants = {"spacing=logarithmic", "bounds=frustum", "bins=256", "tile=32", "merge=lanes"},
         .counters = {counter<&ZBinnedCounters::evaluations>(
                          {.name = "evaluations", .help = "lights shaded, summed over samples"}),
                      counter<&ZBinnedCounters::words_read>(

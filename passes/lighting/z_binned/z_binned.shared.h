@@ -19,15 +19,6 @@ const uint view_pixel_lights = 0u;
 const uint view_tile_lights = 1u;
 const uint view_idle_lights = 2u;
 
-struct ZBinnedParams {
-    uint bins;
-    uint spacing;
-    uint tile;  // 0: 8 x 8 pixels, 1: 16 x 16, 2: 32 x 32
-    uint bounds;
-    uint merge;
-    uint routing;  // routing_* of passes/edges/routing/routing.shared.h
-};
-
 // What the steps are told.
 struct ZBinsPush {
     uint lights;  // submitted
@@ -51,7 +42,7 @@ struct ZHeader {
     uint everywhere;  // how many of the sorted lights reach every depth
     float near;       // view z of the first bin's begin
     float far;        // ... and of the last one's end
-    float scale;      // bins per metre, or per unit of log(z / near)
+    float scale;      // bins per meter, or per unit of log(z / near)
 };
 
 struct ZBinnedCounters {

@@ -6,7 +6,7 @@
 namespace strata::lighting {
 namespace {
 
-/// Bins of one metre from 0 on.
+/// Bins of one meter from 0 on.
 constexpr ZBinsPush push{0, 0, 0, 32, spacing_uniform, 16, 1};
 constexpr ZHeader header{.everywhere = 0, .near = 0, .far = 32, .scale = 1};
 

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "capture_format/frame/light.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/scene/scene_facts.h"
 

@@ -4,8 +4,16 @@
 #include <span>
 #include <vector>
 
-#include "passes/frame_images.h"
+#include "passes/graph/step.h"
 #include "passes/lighting/z_binned/z_binned.shared.h"
+#include "passes/lighting/z_binned/z_binned_params.h"
+
+namespace strata {
+
+class Graph;         // passes/graph/graph.h
+struct FrameImages;  // passes/frame_images.h
+
+}  // namespace strata
 
 namespace strata::lighting {
 

@@ -1,5 +1,8 @@
+
+#include "capture_format/frame/frame.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 // Nothing is occluded.
-#include "passes/technique.h"
 
 namespace strata::occlusion {
 

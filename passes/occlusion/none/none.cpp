@@ -1,5 +1,9 @@
-// No screen-space occlusion: combine finds no image and multiplies by nothing. Whoever asks for the image gets ones.
+
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
+// No screen-space occlusion: combine finds no image and multiplies by nothing. Whoever asks for the image gets ones.
 
 namespace strata::occlusion {
 

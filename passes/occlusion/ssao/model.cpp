@@ -12,13 +12,16 @@
 
 #include <tbb/parallel_for.h>
 
+#include "capture_format/frame/frame.h"
 #include "passes/edges/plain_pixels.h"
 #include "passes/occlusion/radii.h"
 #include "passes/occlusion/ssao/ssao.shared.h"
+#include "passes/occlusion/ssao/ssao_params.h"
 #include "passes/occlusion/truth.h"
 #include "passes/reference/decoded.h"
 #include "passes/reference/pcg.h"
-#include "passes/technique.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 
 namespace strata::occlusion {
 namespace {

@@ -1,4 +1,4 @@
-// The first sample's visibility in grey.
+// The first sample's visibility in gray.
 #version 460
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -3,9 +3,12 @@
 
 #include "passes/choice_names.h"
 #include "passes/edges/plain_pixels.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/occlusion/radii.h"
 #include "passes/occlusion/ssao/ssao.shared.h"
+#include "passes/occlusion/ssao/ssao_params.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::occlusion {
@@ -49,7 +52,9 @@ struct Ssao {
     Shape whole() const { return {.extent = frame.extent, .format = Format::r16f, .layers = frame.samples}; }
 };
 
-ComputePass read_places(ComputePass pass, const FrameImages& frame) { return sample_edges(sample_gbuffer(pass, frame), frame); }
+ComputeStep read_places(ComputeStep builder, const FrameImages& frame) {
+    return sample_edges(sample_gbuffer(builder, frame), frame);
+}
 
 Extent threads(const Shape& shape) { return {shape.extent.width, shape.extent.height, shape.layers}; }
 
@@ -201,10 +206,10 @@ Technique ssao() {
             "Darkens ambient light by what the depth buffer shows around a pixel; surfaces off the screen or behind others "
             "do not occlude, and thin ones occlude as if they were infinitely thick.",
         .params = params(),
-        .points = {"ao_taps=8", "ao_taps=12", "ao_taps=96", "ao_taps=96 ao_blur=off", "ao_blur=off", "ao_blur=off ao_noise=none",
-                   "ao_noise=hash", "ao_resolution=half", "ao_resolution=half ao_taps=8", "ao_edge_stop=depth", "ao_radius=50cm",
-                   "ao_material=min", "ao_form=xray", "ao_form=xray ao_taps=8", "ao_form=xray ao_taps=96",
-                   "ao_form=xray ao_edge_stop=depth ao_resolution=half"},
+        .variants = {"ao_taps=8", "ao_taps=12", "ao_taps=96", "ao_taps=96 ao_blur=off", "ao_blur=off",
+                     "ao_blur=off ao_noise=none", "ao_noise=hash", "ao_resolution=half", "ao_resolution=half ao_taps=8",
+                     "ao_edge_stop=depth", "ao_radius=50cm", "ao_material=min", "ao_form=xray", "ao_form=xray ao_taps=8",
+                     "ao_form=xray ao_taps=96", "ao_form=xray ao_edge_stop=depth ao_resolution=half"},
         .counters = {counter<&SsaoCounters::samples>(
                          {.name = "samples", .help = "samples for which ambient visibility was estimated from taps"}),
                      counter<&SsaoCounters::taps>({.name = "taps", .help = "depth taps read by all estimates"}),

@@ -28,21 +28,8 @@ const uint noise_hash = 2u;
 const uint material_product = 0u;
 const uint material_min = 1u;
 
-struct SsaoParams {
-    uint form;
-    uint taps;
-    uint radius;  // a place in passes/occlusion/radii.h
-    uint resolution;
-    uint blur;
-    uint edge_stop;
-    uint noise;
-    uint material;
-    float depth_error;
-    float bias;
-};
-
 struct SsaoPush {
-    float radius;  // metres
+    float radius;  // meters
     float depth_error;
     float bias;
 };

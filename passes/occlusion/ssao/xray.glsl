@@ -6,7 +6,7 @@
 
 const float two_pi = 6.28318530717959;
 const float tangent_67_5 = 0.668178637919299;    // of half the field of view that the constants were made for
-const float least_depth = 1.3;                   // metres: the rings of nearer surfaces are not wider
+const float least_depth = 1.3;                   // meters: the rings of nearer surfaces are not wider
 const vec2 kernel = 75.0 / vec2(1024.0, 768.0);  // of the picture, at 1 m
 
 // Ring i of n has the share i / n of the radius and is turned by half a direction more than the one inside it: the chapter does

@@ -19,10 +19,10 @@ layout(set = 0, binding = 5) uniform sampler2D records;        // of record.comp
 
 const float quarter_turn = 1.57079632679;
 
-// Metres from the cube of 4 m that the eye is in: floats are fine there, wherever in the world it lies.
+// Meters from the cube of 4 m that the eye is in: floats are fine there, wherever in the world it lies.
 vec3 world_place(vec3 position) { return push.place + view.to_world * position; }
 
-// The cell around a place, of `cells` per metre; the same as of the whole world position in double.
+// The cell around a place, of `cells` per meter; the same as of the whole world position in double.
 uvec3 world_cell(vec3 scaled, float cells) { return push.cubes * uint(4.0 * cells) + uvec3(ivec3(floor(scaled))); }
 
 uint noise_at(vec3 place) { return hashed(tap_key, world_cell(place * noise_cells + noise_shift, noise_cells)); }

@@ -6,18 +6,22 @@
 #include <numbers>
 #include <vector>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/result.h"
 #include "passes/edges/plain_pixels.h"
 #include "passes/gbuffer/codes.h"
 #include "passes/rain/formulas.h"
 #include "passes/rain/wetness/traced_map_model.h"
+#include "passes/rain/wetness/wetness.shared.h"
 #include "passes/reference/decoded.h"
 #include "passes/reference/pcg.h"
-#include "passes/technique.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 
 namespace strata::rain {
 namespace {
 
-// How far floats of the device may be from the numbers here: positions in metres, per metre from the eye.
+// How far floats of the device may be from the numbers here: positions in meters, per meter from the eye.
 constexpr double rounding = 4e-6;
 
 struct Scene {

@@ -7,7 +7,6 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
 #include "passes/scene/draw_bounds.h"
 
 namespace strata::rain {
@@ -15,14 +14,14 @@ namespace strata::rain {
 struct RainMapShape {
     std::uint32_t size = 1024;  ///< texels a side
     double radius = 2;          ///< of lookups, in texels
-    double reach = 40;          ///< metres of view depth
+    double reach = 40;          ///< meters of view depth
 };
 
 /// Of a view-space point (p, 1): texels along both axes, and depth, 1 before all casters and 0 behind them.
 struct RainMap {
     glm::dvec4 u{0}, v{0}, depth{0};
-    double texel = 0;            ///< metres: the same wherever the eye is and looks
-    double range = 0;            ///< metres of depth from 1 to 0
+    double texel = 0;            ///< meters: the same wherever the eye is and looks
+    double range = 0;            ///< meters of depth from 1 to 0
     glm::dvec3 towards_rain{0};  ///< view space, unit
 };
 

@@ -6,10 +6,13 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include "capture_format/frame.h"
+#include "passes/rain/wetness/wetness.shared.h"
+
 namespace strata::rain {
 namespace {
 
-// Metres against the rain from which rays begin: above anything that casts.
+// Meters against the rain from which rays begin: above anything that casts.
 constexpr double above = 1e5;
 // Where nothing lies.
 constexpr double nothing = 1e9;

@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "capture_format/frame.h"
-#include "passes/rain/wetness/wetness.shared.h"
+#include "passes/rain/wetness/wetness_params.h"
 #include "passes/reference/rays.h"
 
 namespace strata::rain {
@@ -45,11 +45,11 @@ public:
     /// The casters must outlive it.
     TracedMap(const CastersInRain&, const Frame&, const WetnessParams&, const glm::dvec3& direction);
 
-    double texel() const { return texel_; }      ///< metres
+    double texel() const { return texel_; }      ///< meters
     glm::dvec3 along() const { return along_; }  ///< view space
-    /// Texels along both axes and metres along the rain, of a view-space position.
+    /// Texels along both axes and meters along the rain, of a view-space position.
     glm::dvec3 place(const glm::dvec3& position) const;
-    /// Whether nothing lies above this depth, in metres along the rain, in the texel's middle.
+    /// Whether nothing lies above this depth, in meters along the rain, in the texel's middle.
     Reached is_reached(glm::ivec2 texel, double depth, double doubt) const;
 
 private:
@@ -63,7 +63,7 @@ private:
     std::uint32_t size_;
     double texel_ = 0;
     glm::dvec3 u_, v_, along_;  ///< view space
-    glm::dvec2 corner_{0};      ///< metres along u and v of the map's corner, from the eye
+    glm::dvec2 corner_{0};      ///< meters along u and v of the map's corner, from the eye
     mutable std::unordered_map<std::uint32_t, Depths> known_;
 };
 

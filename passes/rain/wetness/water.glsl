@@ -1,11 +1,11 @@
-// Water on surfaces: rings where drops fall, streams on walls, puddles. Heights in metres; positions as world_place() has them, so
+// Water on surfaces: rings where drops fall, streams on walls, puddles. Heights in meters; positions as world_place() has them, so
 // that patterns stick to the world.
 #ifndef PASSES_RAIN_WETNESS_WATER_GLSL
 #define PASSES_RAIN_WETNESS_WATER_GLSL
 #include "passes/rain/wetness/lookup.glsl"
 
-layout(constant_id = 4) const float ripple_height = 0.002;  // metres
-layout(constant_id = 5) const float flow_height = 0.003;    // metres
+layout(constant_id = 4) const float ripple_height = 0.002;  // meters
+layout(constant_id = 5) const float flow_height = 0.003;    // meters
 layout(constant_id = 6) const float puddles = 0.5;
 
 float unit_of(uint word) { return float(word >> 8) / 16777216.0; }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
+
 namespace strata::rain {
 namespace {
 
@@ -27,7 +29,7 @@ RainRecord record_of(const RainMap& map, const WetnessParams& params) {
 }
 
 WetnessPush weather_push(const Frame& frame, const RainMap& map, const WetnessParams& params) {
-    constexpr double cube = 4;  // metres
+    constexpr double cube = 4;  // meters
     const glm::dvec3 whole = glm::floor(frame.view.origin / cube);
     const Turns rings = turns_of(frame.time, double(ring_rate)), flow = turns_of(frame.time, double(flow_rate));
     RainRecord record = record_of(map, params);

@@ -3,6 +3,7 @@
 
 #include "passes/rain/wetness/rain_map.h"
 #include "passes/rain/wetness/wetness.shared.h"
+#include "passes/rain/wetness/wetness_params.h"
 
 namespace strata::rain {
 

@@ -11,8 +11,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 7) const uint form = form_porosity;
 layout(constant_id = 8) const float wet_albedo = 0.5;
 layout(constant_id = 9) const float wet_gloss = 0.8;
-layout(constant_id = 10) const float reach = 40.0;        // metres of view depth
-layout(constant_id = 11) const float fade_begin = 20.0;  // metres
+layout(constant_id = 10) const float reach = 40.0;        // meters of view depth
+layout(constant_id = 11) const float fade_begin = 20.0;  // meters
 layout(constant_id = 12) const uint beyond = beyond_open;
 layout(constant_id = 13) const uint ripple_filter = 1u;
 

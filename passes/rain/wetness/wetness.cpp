@@ -1,14 +1,18 @@
 // Wet surfaces: a rain map along the rain's direction, and the G-buffer's surfaces with water on them.
 #include <string_view>
 
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
 #include "passes/choice_names.h"
 #include "passes/edges/plain_pixels.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/gbuffer/surfaces.h"
 #include "passes/rain/look.h"
 #include "passes/rain/wetness/weather.h"
 #include "passes/scene/material_uses.h"
 #include "passes/scene/scene_facts.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::rain {
@@ -64,7 +68,7 @@ void keep_records(Graph& graph, const std::vector<RainMap>& maps, const WetnessP
     const auto count = static_cast<std::uint32_t>(maps.size());
     Image records = graph.create(std::string(records_name), {.extent = {4, count}, .format = Format::rgba32f});
     for (std::uint32_t i = 0; i < count; ++i) {
-        ComputePass keep = graph.compute("rain/wetness/record.comp");
+        ComputeStep keep = graph.compute("rain/wetness/record.comp");
         i == 0 ? keep.stores("records", records) : keep.updates("records", records);
         keep.push(RecordPush{.map = record_of(maps[i], params), .place = i}).groups({1, 1, 1});
     }
@@ -82,7 +86,7 @@ void draw_maps(Graph& graph, const FrameImages& frame, const WetnessParams& para
         const glm::dmat4 to_map = glm::transpose(glm::dmat4(at.u * (2. / size) - one, at.v * (2. / size) - one, at.depth, one));
         for (const DrawList& run : runs) {
             if (run.count == 0) continue;
-            DrawPass cast = graph.draw("rain/wetness/cast", run);
+            DrawStep cast = graph.draw("rain/wetness/cast", run);
             fix_materials(cast, frame, Surfaces::opaque)
                 .writes_depth(layers, count > 1 ? Part{.layer = i} : Part{})
                 .within({size, size})
@@ -93,8 +97,8 @@ void draw_maps(Graph& graph, const FrameImages& frame, const WetnessParams& para
 }
 
 /// Binds the maps in a step whose shader includes passes/rain/wetness/lookup.glsl.
-ComputePass read_maps(Graph& graph, ComputePass pass, const WetnessParams& params) {
-    return pass.samples("rain_map", graph.find_image(map_name))
+ComputeStep read_maps(Graph& graph, ComputeStep builder, const WetnessParams& params) {
+    return builder.samples("rain_map", graph.find_image(map_name))
         .samples("records", graph.find_image(records_name))
         .fixes("directions", params.directions)
         .fixes("map_size", static_cast<std::int32_t>(smallest_map << params.map_size))
@@ -108,8 +112,8 @@ void wet_surfaces(Graph& graph, FrameImages& frame, const WetnessParams& params,
     const auto like = [&](const char* name, const Image& dry) { return graph.create(name, graph.shape(dry)); };
     Image wet0 = like("gbuffer0", frame.gbuffer0), wet1 = like("gbuffer1", frame.gbuffer1);
     Image wet2 = has_third ? like("gbuffer2", frame.gbuffer2) : Image{};
-    ComputePass pass = graph.compute(has_third ? "rain/wetness/wet_three.comp" : "rain/wetness/wet_two.comp");
-    read_maps(graph, sample_edges(sample_gbuffer(pass, frame), frame), params)
+    ComputeStep builder = graph.compute(has_third ? "rain/wetness/wet_three.comp" : "rain/wetness/wet_two.comp");
+    read_maps(graph, sample_edges(sample_gbuffer(builder, frame), frame), params)
         .stores("wet0", wet0)
         .stores("wet1", wet1)
         .fixes("form", params.form)
@@ -124,7 +128,7 @@ void wet_surfaces(Graph& graph, FrameImages& frame, const WetnessParams& params,
         .fixes("ripple_filter", params.ripple_filter)
         .push(push)
         .over({frame.extent.width, frame.extent.height, frame.samples});
-    if (has_third) pass.stores("wet2", wet2);
+    if (has_third) builder.stores("wet2", wet2);
     frame.gbuffer0 = wet0;
     frame.gbuffer1 = wet1;
     frame.gbuffer2 = wet2;
@@ -288,16 +292,16 @@ Technique wetness() {
             "Darkens and smooths surfaces that a map of the rain reaches, with rings, streams and puddles; edges of dry areas "
             "are as wide as the lookup, and low shelters near walls are missed.",
         .params = params(),
-        .points = {"rain_map_size=64",   "rain_map_size=256",
-                   "rain_map_size=512",  "rain_map_size=2048",
-                   "rain_radius=0",      "rain_radius=4",
-                   "rain_radius=8",      "rain_jitter=none",
-                   "rain_casters=fixed", "rain_beyond=dry rain_reach=20 rain_fade=0.25",
-                   "wet_form=xray",      "wet_form=xray puddles=0",
-                   "ripple_height=0",    "flow_height=0",
-                   "puddles=0",          "puddles=1",
-                   "ripple_filter=off",  "rain_directions=3",
-                   "rain_directions=5",  "rain_directions=8"},
+        .variants = {"rain_map_size=64",   "rain_map_size=256",
+                     "rain_map_size=512",  "rain_map_size=2048",
+                     "rain_radius=0",      "rain_radius=4",
+                     "rain_radius=8",      "rain_jitter=none",
+                     "rain_casters=fixed", "rain_beyond=dry rain_reach=20 rain_fade=0.25",
+                     "wet_form=xray",      "wet_form=xray puddles=0",
+                     "ripple_height=0",    "flow_height=0",
+                     "puddles=0",          "puddles=1",
+                     "ripple_filter=off",  "rain_directions=3",
+                     "rain_directions=5",  "rain_directions=8"},
         .counters =
             {counter<&WetnessCounters::looked_up>(
                  {.name = "looked_up", .help = "samples for which the rain map was looked up, one for all of a plain pixel"}),

@@ -19,7 +19,7 @@ const uint casters_fixed = 1u;
 const uint beyond_open = 0u;
 const uint beyond_dry = 1u;
 
-// Side of the cubes of the world that share one set of tap offsets, per metre. Cubes are moved by a share of their side, so that
+// Side of the cubes of the world that share one set of tap offsets, per meter. Cubes are moved by a share of their side, so that
 // no surface at a round coordinate lies between two.
 const float noise_cells = 32.0f;
 const float noise_shift = 0.37f;
@@ -30,26 +30,6 @@ const uint most_directions = 8u;
 // Of a vertical surface, the disc of taps is smaller by this share: all of it must be moved out of what stands above.
 const float disc_loss = 0.75f;
 
-struct WetnessParams {
-    uint map_size;
-    float radius;  // texels
-    uint jitter;
-    uint casters;
-    float bias;   // metres
-    float reach;  // metres
-    float fade;   // share of the reach from which on it fades
-    uint beyond;
-    uint form;
-    float albedo;
-    float gloss;
-    float ripple_height;  // millimetres
-    float flow_height;    // millimetres
-    float puddles;
-    uint ripple_filter;
-    uint directions;
-    float spread;  // degrees
-};
-
 struct RainMapPush {
     mat4 view_to_map;
 };
@@ -59,7 +39,7 @@ struct RainMapPush {
 struct RainRecord {
     vec4 u, v, depth;
     vec3 towards_rain;  // view space, unit
-    float texel;        // metres
+    float texel;        // meters
 };
 
 struct RecordPush {
@@ -69,7 +49,7 @@ struct RecordPush {
 
 struct WetnessPush {
     RainRecord map;  // of the recorded direction; with more directions than that, of the first but for towards_rain
-    // The eye's place in the world: whole cubes of 4 m modulo 2^32, and metres from there.
+    // The eye's place in the world: whole cubes of 4 m modulo 2^32, and meters from there.
     uvec3 cubes;
     vec3 place;
     // Turns of what moves, counted since time 0: whole ones modulo 2^32, and the rest.

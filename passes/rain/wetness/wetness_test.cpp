@@ -4,15 +4,18 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "capture_format/view.h"
 #include "passes/rain/formulas.h"
 #include "passes/rain/truth.h"
 #include "passes/rain/wetness/rain_map.h"
 #include "passes/rain/wetness/weather.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 
 namespace strata::rain {
@@ -189,7 +192,7 @@ TEST(RainLookup, UnderARoofIsDryOutsideIsWetAndTheEdgeRisesBetween) {  // T-RN-2
     for (std::uint32_t x = 32; x < 64; ++x) {
         double sum = 0;
         for (std::uint32_t y = 28; y < 36; ++y) sum += (1 - roughness.at(x, y).x) / .8 / 8;
-        const double beside = std::abs(pixel_ray(floor.frame, x + .5, 32).x) * 18 - 2;  // metres from the roof's edge
+        const double beside = std::abs(pixel_ray(floor.frame, x + .5, 32).x) * 18 - 2;  // meters from the roof's edge
         if (std::abs(beside) > rim) {
             EXPECT_NEAR(sum, beside < 0 ? 0 : 1, .01) << beside;
         }
@@ -269,7 +272,7 @@ TEST(RainInWind, ReachesWhatAsManyRaysDo) {
     }
 }
 
-/// Of wind from all around, at a straight edge at height h: 1/2 + asin(x / w) / pi at x metres outside, w = h tan(tilt).
+/// Of wind from all around, at a straight edge at height h: 1/2 + asin(x / w) / pi at x meters outside, w = h tan(tilt).
 double share_at_edge(double outside, double height) {
     return .5 + std::asin(std::clamp(outside / (height * std::tan(tilt)), -1., 1.)) / std::numbers::pi;
 }

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/shadows/bounds/bounds_model.h"
+#include "passes/stage_input.h"
 #include "tests/support/random_numbers.h"
 
 namespace strata::shadows {

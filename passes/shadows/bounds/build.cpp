@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "passes/graph/graph.h"
 #include "passes/shadows/bounds/bounds.shared.h"
 
 namespace strata {
@@ -53,8 +54,8 @@ Extent block_extent(const BoundsPush& push, std::uint32_t block) { return {block
 
 void add_extremes(Graph& graph, const Wanted& work, const BoundsSettings& settings, Image& bounds) {
     for (const BoundsPush& push : work.pushes) {
-        ComputePass pass = graph.compute("shadows/bounds/extremes.comp");
-        fix_shadow_bounds(pass, settings)
+        ComputeStep builder = graph.compute("shadows/bounds/extremes.comp");
+        fix_shadow_bounds(builder, settings)
             .samples("shadow_maps", work.maps)
             .stores("bounds", bounds)
             .push(push)
@@ -73,8 +74,8 @@ Image extremes_of(Graph& graph, const Wanted& work) {
     Image parts = create_blocks(graph, work, {"parts of shadow_bounds", part, Format::rg32f});
     add_extremes(graph, work, {.block = part, .reach = 0}, parts);
     for (const BoundsPush& push : work.pushes) {
-        ComputePass pass = graph.compute("shadows/bounds/join.comp");
-        fix_shadow_bounds(pass, work.settings)
+        ComputeStep builder = graph.compute("shadows/bounds/join.comp");
+        fix_shadow_bounds(builder, work.settings)
             .samples("parts", parts)
             .stores("bounds", bounds)
             .fixes("part", static_cast<std::int32_t>(part))
@@ -108,8 +109,8 @@ Image levels_of(Graph& graph, const Wanted& work) {
 Image slabs_of(Graph& graph, const Wanted& work) {
     Image bounds = create_blocks(graph, work, {bounds_name(work.settings), work.settings.block, Format::rgba32f});
     for (const BoundsPush& push : work.pushes) {
-        ComputePass pass = graph.compute("shadows/bounds/slabs.comp");
-        fix_shadow_bounds(pass, work.settings)
+        ComputeStep builder = graph.compute("shadows/bounds/slabs.comp");
+        fix_shadow_bounds(builder, work.settings)
             .samples("shadow_maps", work.maps)
             .stores("bounds", bounds)
             .fixes("planes_only", work.settings.form == BoundsForm::planes ? 1u : 0u)
@@ -140,8 +141,8 @@ bool are_bounds(const Graph& graph, const Image& image, const BoundsSettings& se
     return image && graph.record(image).name == bounds_name(settings);
 }
 
-ComputePass& fix_shadow_bounds(ComputePass& pass, const BoundsSettings& settings) {
-    return pass.fixes("bounds_block", static_cast<std::int32_t>(settings.block))
+ComputeStep& fix_shadow_bounds(ComputeStep& builder, const BoundsSettings& settings) {
+    return builder.fixes("bounds_block", static_cast<std::int32_t>(settings.block))
         .fixes("bounds_reach", static_cast<std::int32_t>(settings.reach));
 }
 

@@ -7,10 +7,13 @@
 #include <span>
 #include <string>
 
-#include "passes/graph/graph.h"
+#include "passes/graph/step.h"
 #include "passes/scene/shadow_views.h"
 
 namespace strata {
+
+class ComputeStep;  // passes/graph/graph.h
+class Graph;        // passes/graph/graph.h
 
 /// What a texel of the bounds says of the map texels in its window. Depth is 1 at the light and 0 where nothing is drawn.
 enum class BoundsForm : std::uint32_t {
@@ -49,6 +52,6 @@ bool are_bounds(const Graph&, const Image&, const BoundsSettings&);
 
 /// Fixes the constants of passes/shadows/bounds/query.glsl in a step whose shader includes it. The step also says
 /// .samples("shadow_bounds", ...).
-ComputePass& fix_shadow_bounds(ComputePass&, const BoundsSettings&);
+ComputeStep& fix_shadow_bounds(ComputeStep&, const BoundsSettings&);
 
 }  // namespace strata

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <limits>
 
+#include "passes/graph/graph.h"
 #include "passes/shadows/bounds/bounds.shared.h"
 
 namespace strata {
@@ -53,8 +54,8 @@ BoundsNodes add_bounds_nodes(Graph& graph, const Image& bounds, std::span<const 
     return nodes;
 }
 
-ComputePass& sample_bounds_nodes(ComputePass& pass, const BoundsNodes& nodes) {
-    return pass.samples("bounds_nodes", nodes.image).fixes("bounds_levels", nodes.levels);
+ComputeStep& sample_bounds_nodes(ComputeStep& builder, const BoundsNodes& nodes) {
+    return builder.samples("bounds_nodes", nodes.image).fixes("bounds_levels", nodes.levels);
 }
 
 }  // namespace strata

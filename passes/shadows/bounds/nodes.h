@@ -23,6 +23,6 @@ struct BoundsNodes {
 BoundsNodes add_bounds_nodes(Graph&, const Image& bounds, std::span<const ShadowView>, const BoundsSettings&);
 
 /// Fixes the constant and binds the image of passes/shadows/bounds/nodes.glsl in a step whose shader includes it.
-ComputePass& sample_bounds_nodes(ComputePass&, const BoundsNodes&);
+ComputeStep& sample_bounds_nodes(ComputeStep&, const BoundsNodes&);
 
 }  // namespace strata

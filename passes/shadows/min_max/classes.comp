@@ -35,7 +35,7 @@ float outside_share(uint record) {
     return 1.0;
 }
 
-// Lit yellow, shadowed blue, expensive red, outside grey, no lookup black.
+// Lit yellow, shadowed blue, expensive red, outside gray, no lookup black.
 vec3 color_of(uint found) {
     if (found == class_lit) return vec3(1.0, 0.9, 0.4);
     if (found == class_shadowed) return vec3(0.0, 0.1, 0.4);

@@ -3,10 +3,13 @@
 #include <cstddef>
 
 #include "passes/choice_names.h"
+#include "passes/frame_images.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/shadows/filter.h"
 #include "passes/shadows/min_max/min_max.h"
 #include "passes/shadows/shadows.shared.h"
+#include "passes/stage_input.h"
+#include "passes/technique.h"
 
 namespace strata::shadows {
 
@@ -34,8 +37,8 @@ void draw_maps(Graph& graph, FrameImages& frame, const Settings& settings) {
     make_shadow_maps(graph, frame, {.filter = params.filter, .caster_mask = params.caster_mask});
 }
 
-ComputePass asking(ComputePass pass, const FrameImages& frame, const MinMaxParams& params) {
-    return fix_shadow_bounds(pass, params.bounds())
+ComputeStep asking(ComputeStep builder, const FrameImages& frame, const MinMaxParams& params) {
+    return fix_shadow_bounds(builder, params.bounds())
         .samples("shadow_bounds", frame.shadow_bounds)
         .fixes("bounds_form", params.form);
 }

@@ -2,9 +2,11 @@
 // with form=plane the receiver follows the plane of the block under it.
 #include <cmath>
 
+#include "passes/settings.h"
 #include "passes/shadows/bounds/bounds_model.h"
 #include "passes/shadows/lookup.h"
 #include "passes/shadows/min_max/min_max.h"
+#include "passes/stage_input.h"
 
 namespace strata::shadows {
 

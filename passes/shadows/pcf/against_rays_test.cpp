@@ -1,12 +1,15 @@
-// The method against traced shadows, maps drawn by rays: a camera looks down a floor with two plates above it.
+// The technique against traced shadows, maps drawn by rays: a camera looks down a floor with two plates above it.
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/reference/rays.h"
 #include "passes/reference/shade.h"
 #include "passes/shadows/judge.h"
 #include "passes/shadows/truth.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "tests/support/traced_maps.h"
 
@@ -67,7 +70,7 @@ ImageSet before(const Frame& frame) {
     return {{"shadow_maps", traced_maps(frame)}, {"depth_layers", depth}, {"surface_normal", normal}};
 }
 
-std::vector<Figure> error(std::uint32_t map_size, double kernel) {
+std::vector<Metric> error(std::uint32_t map_size, double kernel) {
     const Frame frame = plates_over_a_floor(map_size);
     const ImageSet images = before(frame);
     const StageInput input{frame, images};
@@ -86,9 +89,9 @@ TEST(pcf_against_rays, comes_closer_with_finer_maps) {
 }
 
 TEST(pcf_against_rays, errs_at_the_rims_of_shadows_alone) {
-    const auto figures = error(512, 0);
-    EXPECT_LT(figures[1].value, 1.0);  // % of samples wrongly lit
-    EXPECT_LT(figures[2].value, 1.0);
+    const auto metrics = error(512, 0);
+    EXPECT_LT(metrics[1].value, 1.0);  // % of samples wrongly lit
+    EXPECT_LT(metrics[2].value, 1.0);
 }
 
 TEST(pcf_against_rays, pays_for_softer_rims_with_error) { EXPECT_GT(error(256, 2)[0].value, error(256, 0)[0].value); }

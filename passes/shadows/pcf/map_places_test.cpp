@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/scene/map_places.h"
 #include "passes/shadows/kernel.h"
 

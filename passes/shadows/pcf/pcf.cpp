@@ -1,7 +1,10 @@
 // Percentage-closer filtered shadow maps: casters are drawn into the maps before the G-buffer, and every sample of the G-buffer
 // is looked up in them after it.
+#include "passes/frame_images.h"
 #include "passes/shadows/filter.h"
 #include "passes/shadows/shadows.shared.h"
+#include "passes/stage_input.h"
+#include "passes/technique.h"
 
 namespace strata::shadows {
 

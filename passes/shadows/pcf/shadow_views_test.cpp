@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/scene/shadow_views.h"
 
 namespace strata::shadows {
@@ -174,7 +175,7 @@ TEST(omni_maps, stay_where_they_are_in_the_world_when_the_camera_turns) {
     EXPECT_NEAR(glm::distance(in_map(frame, shadow_views(frame).back(), landmark), seen), 0, 1e-9);
 }
 
-TEST(shadow_views, move_receivers_by_as_many_metres_as_their_light_says) {
+TEST(shadow_views, move_receivers_by_as_many_meters_as_their_light_says) {
     Frame frame = sunny();
     frame.lights = {spot(0.5f)};
     frame.lights[0].shadow.bias = 0.05f;

@@ -3,9 +3,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/light_types.h"
+#include "passes/settings.h"
 #include "passes/shadows/lookup.h"
 #include "passes/shadows/pcss/soft_kernel.h"
 #include "passes/shadows/shadow_map_params.h"
+#include "passes/stage_input.h"
 
 namespace strata::shadows {
 
@@ -37,15 +42,15 @@ Filtered soft_lookup(const LookupScene& scene, const ShadowView& view, const Rec
     if (!at) return {};
     const Towards to = towards(scene.frame, scene.lights[view.light], receiver.position);
     const glm::dvec4 depth_row = glm::transpose(view.view_to_map)[2];
-    const bool is_sun = scene.lights[view.light].type == LightType::directional;
+    const bool is_sun = !has_range(scene.lights[view.light].type);
     const double w = (view.view_to_map * glm::dvec4(receiver.position, 1)).w;
-    const double doubtful_metres = 2e-6 * (1 + glm::length(receiver.position) + (is_sun ? 0 : to.distance));
+    const double doubtful_meters = 2e-6 * (1 + glm::length(receiver.position) + (is_sun ? 0 : to.distance));
     SoftLookup soft{.at = *at, .source = view.source_width, .texel = view.texel};
     soft.gradient = plane_gradient(view, *at, receiver.normal);
     soft.near = is_sun ? 0 : depth_row.w;
-    soft.depth_metres = is_sun ? 1 / glm::length(glm::dvec3(depth_row)) : 0;
+    soft.depth_meters = is_sun ? 1 / glm::length(glm::dvec3(depth_row)) : 0;
     soft.turn = scene.filter.noise != 0 ? pixel_turn(receiver) : 0;
-    soft.texel_doubt += doubtful_metres / (view.texel * w) + (scene.filter.noise != 0 ? 0.02 : 0);
+    soft.texel_doubt += doubtful_meters / (view.texel * w) + (scene.filter.noise != 0 ? 0.02 : 0);
     soft.search = scene.filter.search_taps;
     soft.filter = scene.filter.filter_taps;
     Filtered result = filter_soft(scene.maps, soft);

@@ -1,6 +1,9 @@
 // Percentage-closer soft shadows: the maps of the stage, looked up by a kernel as wide as the penumbra where a light asks for it.
+#include "passes/frame_images.h"
 #include "passes/shadows/filter.h"
 #include "passes/shadows/shadows.shared.h"
+#include "passes/stage_input.h"
+#include "passes/technique.h"
 
 namespace strata::shadows {
 
@@ -50,7 +53,7 @@ Technique pcss() {
             "Searches a map for what blocks a light and filters as widely as its mean distance says; blockers at several "
             "distances share one penumbra, thin ones slip through the search, and light leaks behind the first blocker.",
         .params = params(),
-        .points = {"search_taps=8 filter_taps=16", "search_taps=32 filter_taps=64"},
+        .variants = {"search_taps=8 filter_taps=16", "search_taps=32 filter_taps=64"},
         .counters = shadow_map_counters(),
         .counter_bytes = sizeof(ShadowCounters),
         .views = shadow_map_views(),

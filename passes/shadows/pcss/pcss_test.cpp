@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +11,8 @@
 #include "passes/shadows/pcss/soft_kernel.h"
 #include "passes/shadows/shadow_map_params.h"
 #include "passes/shadows/truth.h"
+#include "passes/stage_input.h"
+#include "passes/technique.h"
 #include "tests/support/ground_from_above.h"
 #include "tests/support/traced_maps.h"
 
@@ -81,7 +84,7 @@ Pictures pictures(const Frame& frame, std::string_view name = "noise", double va
     return {technique.model({frame, images}, settings).at("visibility"), shadows_truth({frame, images}).at("visibility")};
 }
 
-/// Where row 2 first rises above a level, metres on the ground, by the picture's width.
+/// Where row 2 first rises above a level, meters on the ground, by the picture's width.
 double rises_above(const ReferenceImage& image, double level, double wide) {
     for (std::uint32_t x = 0; x + 1 < width; ++x) {
         const double a = image.at(x, 2).x, b = image.at(x + 1, 2).x;

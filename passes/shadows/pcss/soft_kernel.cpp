@@ -9,8 +9,8 @@ namespace strata::shadows {
 
 namespace {
 
-// Distance from the light in metres, the sun's from wherever depth is 0.
-double distance(const SoftLookup& soft, double depth) { return soft.near > 0 ? soft.near / depth : -depth * soft.depth_metres; }
+// Distance from the light in meters, the sun's from wherever depth is 0.
+double distance(const SoftLookup& soft, double depth) { return soft.near > 0 ? soft.near / depth : -depth * soft.depth_meters; }
 
 // A texel against the receiver's plane over its center.
 struct Compared {
@@ -91,7 +91,7 @@ Filtered filter_soft(const ReferenceImage& maps, const SoftLookup& soft) {
     const Blockers found = search(maps, soft);
     if (found.count == 0) return {.lit = 1, .undecided = found.undecided};
     const double mean = found.distances / double(found.count);
-    const double radius = disc_radius(soft, soft.near > 0 ? soft.near / mean : -mean / soft.depth_metres);
+    const double radius = disc_radius(soft, soft.near > 0 ? soft.near / mean : -mean / soft.depth_meters);
     Filtered result{.lit = 0, .undecided = found.undecided};
     for (std::int64_t i = 0; i < soft.filter; ++i) {
         const Filtered tap = bilinear(maps, soft, soft.at.u + radius * disc_tap(i, soft.filter, soft.turn));

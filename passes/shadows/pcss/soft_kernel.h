@@ -6,7 +6,7 @@
 namespace strata::shadows {
 
 /// Width on the receiver of the penumbra that a source of this width makes past an edge: distances from the source, all in
-/// metres. Infinitely far sources: `source` is their width per metre, and distances may count from anywhere.
+/// meters. Infinitely far sources: `source` is their width per meter, and distances may count from anywhere.
 double penumbra(double source, double receiver, double blocker);
 double sun_penumbra(double source, double receiver, double blocker);
 
@@ -17,10 +17,10 @@ glm::dvec2 disc_tap(std::int64_t i, std::int64_t n, double turn);
 struct SoftLookup {
     Lookup at;
     glm::dvec2 gradient{0};     ///< of the receiver's depth per texel
-    double source = 0;          ///< width: metres, of the sun per metre
-    double near = 0;            ///< of a perspective map, metres: distance is near / depth; 0 of the sun's
-    double depth_metres = 0;    ///< of the sun's map per unit of depth: distance is -depth times this
-    double texel = 0;           ///< metres, at 1 m or anywhere
+    double source = 0;          ///< width: meters, of the sun per meter
+    double near = 0;            ///< of a perspective map, meters: distance is near / depth; 0 of the sun's
+    double depth_meters = 0;    ///< of the sun's map per unit of depth: distance is -depth times this
+    double texel = 0;           ///< meters, at 1 m or anywhere
     double turn = 0;            ///< of the taps
     double texel_doubt = 2e-3;  ///< how far float arithmetic may have moved a tap
     std::int64_t search = 16, filter = 32;

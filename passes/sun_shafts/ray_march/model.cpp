@@ -1,4 +1,5 @@
 // The march in double.
+#include "passes/stage_input.h"
 #include "passes/sun_shafts/march_model.h"
 
 namespace strata::sun_shafts {

@@ -1,5 +1,9 @@
 // Sun shafts by a march along every ray, with a lookup of the shadow map at each step.
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/stage_input.h"
 #include "passes/sun_shafts/march.h"
+#include "passes/technique.h"
 
 namespace strata::sun_shafts {
 
@@ -25,11 +29,11 @@ Technique ray_march() {
             "Sums over steps of the view ray what the sun's shadow maps leave lit; shadows thinner than a step become noise, and "
             "the maps' texels show as steps along the beams.",
         .params = march_params(),
-        .points = {"shaft_steps=8", "shaft_steps=16", "shaft_steps=64", "shaft_steps=128", "shaft_taps=1", "shaft_jitter=none",
-                   "shaft_jitter=hash", "shaft_resolution=half", "shaft_extinction=sampled", "shaft_cascade=last",
-                   "shaft_stepping=xray shaft_steps=20 shaft_extinction=sampled",
-                   "shaft_stepping=xray shaft_steps=20 shaft_normalization=steps",
-                   "shaft_phase=henyey_greenstein shaft_asymmetry=0.8"},
+        .variants = {"shaft_steps=8", "shaft_steps=16", "shaft_steps=64", "shaft_steps=128", "shaft_taps=1", "shaft_jitter=none",
+                     "shaft_jitter=hash", "shaft_resolution=half", "shaft_extinction=sampled", "shaft_cascade=last",
+                     "shaft_stepping=xray shaft_steps=20 shaft_extinction=sampled",
+                     "shaft_stepping=xray shaft_steps=20 shaft_normalization=steps",
+                     "shaft_phase=henyey_greenstein shaft_asymmetry=0.8"},
         .counters = march_counters(),
         .counter_bytes = sizeof(MarchCounters),
         .views = march_views(),

@@ -8,7 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
 #include "passes/scene/shadow_views.h"
+#include "passes/stage_input.h"
 #include "passes/sun_shafts/truth.h"
 #include "passes/technique.h"
 #include "tests/support/one_pixel.h"
@@ -22,11 +25,11 @@ namespace {
 
 using std::numbers::pi;
 
-/// Rays that all but coincide with the view's axis, through air of .05 per metre to a wall; the sun's irradiance is 1.
+/// Rays that all but coincide with the view's axis, through air of .05 per meter to a wall; the sun's irradiance is 1.
 struct Tunnel {
     Frame frame = one_pixel(1);
     ImageSet before;
-    double metres = 20;
+    double meters = 20;
 
     explicit Tunnel(const glm::vec3& sun, std::uint32_t width = 1, std::uint32_t height = 1) {
         frame.view.width = width;
@@ -40,11 +43,11 @@ struct Tunnel {
         frame.sun.shadow_distance = 40;
         frame.sun.shafts = true;
         frame.fog.density = .05f;
-        end_at(metres);
+        end_at(meters);
         draw([](const glm::dvec2&) { return 0.; });
     }
     void end_at(double away) {
-        metres = away;
+        meters = away;
         before["depth_layers"] =
             ReferenceImage(frame.view.width, frame.view.height, 1, glm::dvec4(double(frame.view.near) / away));
     }
@@ -63,11 +66,11 @@ struct Tunnel {
     }
     /// Something high over the axis casts its shadow from the border of a texel near 5 m on; returns where that is.
     double shadow_second_half() {
-        const glm::dvec3 eye = on_map(0), per_metre = on_map(1) - eye;
-        const int axis = std::abs(per_metre.x) > std::abs(per_metre.y) ? 0 : 1;
-        const double border = std::round(eye[axis] + 5 * per_metre[axis]), sign = per_metre[axis] > 0 ? 1 : -1;
+        const glm::dvec3 eye = on_map(0), per_meter = on_map(1) - eye;
+        const int axis = std::abs(per_meter.x) > std::abs(per_meter.y) ? 0 : 1;
+        const double border = std::round(eye[axis] + 5 * per_meter[axis]), sign = per_meter[axis] > 0 ? 1 : -1;
         draw([=](const glm::dvec2& texel) { return sign * (texel[axis] - border) > 0 ? 1. : 0.; });
-        return (border - eye[axis]) / per_metre[axis];
+        return (border - eye[axis]) / per_meter[axis];
     }
     ReferenceImage shafts(const std::vector<std::string>& sets) const {
         static const Technique technique = ray_march();

@@ -4,8 +4,13 @@
 #include <span>
 
 #include "passes/choice_names.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
 #include "passes/scene/scene_facts.h"
+#include "passes/stage_input.h"
 #include "passes/sun_shafts/march.h"
+#include "passes/sun_shafts/march_params.h"
+#include "passes/technique.h"
 
 namespace strata::sun_shafts {
 
@@ -135,8 +140,8 @@ Technique ray_march_min_max() {
             "Skips shadow lookups where the minimum and maximum depth of a block of the map decide a step; the picture is that "
             "without bounds, to the bit. Saves little under foliage.",
         .params = params(),
-        .points = {"shaft_steps=16", "shaft_steps=64", "shaft_taps=1", "shaft_resolution=half", "shaft_segment=8",
-                   "shaft_steps=128 shaft_segment=8"},
+        .variants = {"shaft_steps=16", "shaft_steps=64", "shaft_taps=1", "shaft_resolution=half", "shaft_segment=8",
+                     "shaft_steps=128 shaft_segment=8"},
         .counters = counters(),
         .counter_bytes = sizeof(MarchCounters),
         .views = views(),

@@ -9,6 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/shadows/bounds/build.h"
 #include "passes/technique.h"

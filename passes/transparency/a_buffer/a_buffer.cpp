@@ -1,10 +1,13 @@
 // The first fragments of a sample to arrive, stored in small formats and sorted; later ones become one layer behind them.
 #include "passes/choice_names.h"
+#include "passes/frame_images.h"
 #include "passes/scene/scene_facts.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "passes/transparency/a_buffer/a_buffer.shared.h"
+#include "passes/transparency/a_buffer/a_buffer_params.h"
 #include "passes/transparency/distortion/bent_background.h"
-#include "passes/transparency/event_draw.h"
+#include "passes/transparency/fragment_draw.h"
 
 namespace strata::transparency {
 
@@ -67,7 +70,7 @@ void declare(Graph& graph, FrameImages& images, const Settings& settings) {
     const ABufferPush push = push_of(images, settings);
     Layers layers = create_layers(graph, images, push);
     Merged merged = create_merged(graph, images, push);
-    draw_events(graph, "transparency/a_buffer/store", images.transparent, images)
+    draw_fragments(graph, "transparency/a_buffer/store", images.transparent, images)
         .adds_to(merged.sum)
         .multiplies(merged.through)
         .stores("colors", layers.colors)
@@ -96,6 +99,7 @@ Technique a_buffer() {
     return {
         .stage = Stage::transparency,
         .name = "transparency/a_buffer",
+        .aliases = {"abuffer"},
         .title = "Bounded A-buffer",
         .source = "Carpenter 1984, SIGGRAPH; nine layers as in Black Ops 4: Drobot, SIGGRAPH Advances in Real-Time Rendering",
         .summary =
@@ -114,7 +118,7 @@ Technique a_buffer() {
                                                      .help = "format of transmittance; mono: 8 bits; rgb: R11G11B10F; automatic: "
                                                              "rgb if the frame has colored transmittance",
                                                      .choices = layouts})},
-        .points = {"layers=4", "layers=16", "layout=rgb"},
+        .variants = {"layers=4", "layers=16", "layout=rgb"},
         .counters = {counter<&ABufferCounters::fragments>({.name = "fragments", .help = "visible transparent fragments shaded"}),
                      counter<&ABufferCounters::overflow>(
                          {.name = "overflow", .help = "fragments beyond the stored layers, merged into one"}),

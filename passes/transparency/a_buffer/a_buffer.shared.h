@@ -11,11 +11,6 @@ const uint layout_automatic = 0u;
 const uint layout_mono = 1u;
 const uint layout_rgb = 2u;
 
-struct ABufferParams {
-    uint layers;
-    uint stored_as;  // the parameter `layout`, which is a word of GLSL
-};
-
 struct ABufferPush {
     uint layers;
     uint chromatic;  // 1: three transmittances are stored

@@ -7,8 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
 #include "passes/scene/scene_facts.h"
+#include "passes/technique.h"
 #include "passes/transparency/a_buffer/model.h"
 #include "passes/transparency/truth.h"
 #include "tests/support/layers.h"
@@ -75,7 +79,7 @@ TEST(ABuffer, AveragesWhatItMergesByCoverage) {
 }
 
 TEST(ABuffer, PutsTheLaterSubmissionInFrontWhereHalfFloatsCannotTellDepths) {
-    // Neighbours at 1 m are 1 mm apart: a nearer fragment submitted first ends up behind.
+    // Neighbors at 1 m are 1 mm apart: a nearer fragment submitted first ends up behind.
     const Fragment near = layer(1.0002, .5, 1), far = layer(1.0004, .5, 0);
     EXPECT_DOUBLE_EQ(blend(std::array{far, near}, 0), .5);
     EXPECT_DOUBLE_EQ(blend(std::array{near, far}, 0), .25);
@@ -97,7 +101,7 @@ TEST(ABuffer, KeepsTwoHundredThinLayersButForItsNine) {
     EXPECT_NEAR(through(StoredAs::rgb).z, .1273, 1e-4);
 }
 
-TEST(ABuffer, SeesColoredGlassAsGreyInTheMonoLayout) {
+TEST(ABuffer, SeesColoredGlassAsGrayInTheMonoLayout) {
     const Fragment red{.depth = 1, .transmittance = {1, .2, .2}, .alpha = 1};
     const auto seen = [&](StoredAs kind) { return a_buffer_blend(std::array{red}, glm::dvec3(1), 9, kind); };
     EXPECT_NEAR(seen(StoredAs::mono).x, 1.4 / 3, .5 / 255);

@@ -1,5 +1,5 @@
 // How many fragments a sample got, in 8 bits, four samples to a word. The four lie a quarter of the frame apart, so that
-// neighbours do not fight for a word. Declare the buffer `Counts { uint counts[]; }` before.
+// neighbors do not fight for a word. Declare the buffer `Counts { uint counts[]; }` before.
 #ifndef PASSES_TRANSPARENCY_A_BUFFER_COUNTS_GLSL
 #define PASSES_TRANSPARENCY_A_BUFFER_COUNTS_GLSL
 #include "passes/shaders/scene.glsl"

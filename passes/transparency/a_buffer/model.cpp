@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 
+#include "capture_format/frame_features.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
+#include "passes/transparency/a_buffer/a_buffer_params.h"
 #include "passes/transparency/distortion/model.h"
 #include "passes/transparency/rounding.h"
 #include "passes/transparency/sample_blend.h"

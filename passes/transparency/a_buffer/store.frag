@@ -4,7 +4,7 @@
 #include "passes/transparency/a_buffer/a_buffer.shared.h"
 #include "passes/transparency/a_buffer/counts.glsl"
 #include "passes/transparency/a_buffer/rounding.glsl"
-#include "passes/transparency/event.glsl"
+#include "passes/transparency/fragment.glsl"
 
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_sum;      // of p + e, and of coverage
@@ -30,27 +30,27 @@ uint arrival(ivec3 texel) {
     return count_in(seen, place);
 }
 
-void store(ivec3 texel, uint slot, Event event, vec3 through) {
+void store(ivec3 texel, uint slot, Fragment fragment, vec3 through) {
     const ivec3 at = ivec3(texel.xy, slot * view.samples + texel.z);
     const vec3 kept = params.chromatic != 0u ? rounded_r11g11b10(through) : vec3(rounded_unorm8(through.r));
-    imageStore(colors, at, vec4(rounded_r11g11b10(event.p + event.e), 1.0));
+    imageStore(colors, at, vec4(rounded_r11g11b10(fragment.p + fragment.e), 1.0));
     imageStore(transmittances, at, vec4(kept, 1.0));
-    imageStore(depths, at, vec4(rounded_half(event.z)));
+    imageStore(depths, at, vec4(rounded_half(fragment.z)));
 }
 
 void main() {
-    const Event event = transparent_event();
-    if (!event.visible) discard;
-    const float coverage = dot(1.0 - event.t, vec3(1.0 / 3.0));
-    const vec3 through = params.chromatic != 0u ? event.t : vec3(1.0 - coverage);
+    const Fragment fragment = transparent_fragment();
+    if (!fragment.visible) discard;
+    const float coverage = dot(1.0 - fragment.t, vec3(1.0 / 3.0));
+    const vec3 through = params.chromatic != 0u ? fragment.t : vec3(1.0 - coverage);
     const ivec3 texel = ivec3(gl_FragCoord.xy, gl_SampleID);
     const uint slot = arrival(texel);
     atomicAdd(counters.fragments, 1u);
     if (slot < params.layers) {
-        store(texel, slot, event, through);
+        store(texel, slot, fragment, through);
         discard;
     }
     atomicAdd(counters.overflow, 1u);
-    out_sum = vec4(event.p + event.e, coverage);
+    out_sum = vec4(fragment.p + fragment.e, coverage);
     out_through = vec4(through, 1.0);
 }

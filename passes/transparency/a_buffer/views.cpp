@@ -1,6 +1,8 @@
 // Where the A-buffer overflows.
-#include "passes/technique.h"
-#include "passes/transparency/a_buffer/a_buffer.shared.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/settings.h"
+#include "passes/transparency/a_buffer/a_buffer_params.h"
 #include "passes/transparency/layers_beyond.h"
 
 namespace strata::transparency {

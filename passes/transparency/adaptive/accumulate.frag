@@ -2,12 +2,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/adaptive/adaptive.shared.h"
-#include "passes/transparency/event.glsl"
+#include "passes/transparency/fragment.glsl"
 #include "passes/transparency/functions/outputs.glsl"
-#include "passes/transparency/lists/event_lists.shared.h"
+#include "passes/transparency/lists/pixel_lists.shared.h"
 
 layout(push_constant, scalar) uniform Push { Band band; };
-#include "passes/transparency/lists/event_lists.glsl"
+#include "passes/transparency/lists/pixel_lists.glsl"
 
 layout(early_fragment_tests) in;
 layout(set = 0, binding = 20, scalar) buffer Counters { FunctionCounters counters; };
@@ -25,9 +25,9 @@ vec3 transmittance(uint cell, float z) {
 }
 
 void main() {
-    const Event event = transparent_event();
+    const Fragment fragment = transparent_fragment();
     const uvec2 pixel = texel_under(view.extent);
-    if (!event.visible || !in_band(pixel.y)) discard;
+    if (!fragment.visible || !in_band(pixel.y)) discard;
     atomicAdd(counters.drawn, 1u);
-    write_event(event, transmittance(cell_of(pixel, gl_SampleID), event.z));
+    write_fragment(fragment, transmittance(cell_of(pixel, gl_SampleID), fragment.z));
 }

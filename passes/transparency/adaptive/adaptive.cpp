@@ -1,9 +1,11 @@
 // Adaptive transparency: T(z) of a sample as a step curve of a few nodes, compressed as fragments come.
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "passes/transparency/adaptive/adaptive.shared.h"
+#include "passes/transparency/adaptive/adaptive_params.h"
 #include "passes/transparency/functions/draw.h"
 #include "passes/transparency/functions/motion.h"
-#include "passes/transparency/lists/event_lists.h"
+#include "passes/transparency/lists/pixel_lists.h"
 
 namespace strata::transparency {
 
@@ -22,7 +24,7 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, O
     const auto params = settings.as<AdaptiveParams>();
     const std::uint32_t nodes = curve_nodes(params);
     const std::uint64_t bytes_of_curve = nodes * sizeof(CurveNode);
-    EventLists lists = create_lists(graph, images, params.pool, most_curve_bytes / bytes_of_curve);
+    PixelLists lists = create_lists(graph, images, params.pool, most_curve_bytes / bytes_of_curve);
     Buffer curves = graph.create("adaptive curves", most_cells(lists) * bytes_of_curve);
     FunctionSums drawn = create_sums(graph, images, {.accumulation = params.accumulation, .offsets = offsets});
     for (const Band& band : lists.bands) {
@@ -30,9 +32,9 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, O
         read_lists(graph.compute("transparency/adaptive/compress.comp"), lists, band)
             .updates("Curves", curves)
             .fixes("curve_nodes", nodes)
-            .fixes("per_turn", fragments_per_turn(lists))
+            .fixes("per_iteration", fragments_per_iteration(lists))
             .over(over(band));
-        draw_into(graph, "transparency/adaptive/accumulate", images, drawn, [&](DrawPass& draw, Resolution resolution) {
+        draw_into(graph, "transparency/adaptive/accumulate", images, drawn, [&](DrawStep& draw, Resolution resolution) {
             draw.loads("Curves", curves)
                 .push(band)
                 .in_rows(rows_of(band, resolution == Resolution::low ? 2 : 1))
@@ -48,6 +50,7 @@ Technique adaptive() {
     return {
         .stage = Stage::transparency,
         .name = "transparency/adaptive",
+        .aliases = {"aoit"},
         .title = "Adaptive transparency",
         .source = "Salvi, Montgomery and Lefohn 2011, HPG",
         .summary =
@@ -61,7 +64,7 @@ Technique adaptive() {
                         .help = "steps kept of each sample's T(z); more: more accurate, more memory and time",
                         .choices = node_counts}),
                    param<&AdaptiveParams::accumulation>(accumulation_row), param<&AdaptiveParams::pool>(pool_row)},
-        .points = {"nodes=4", "nodes=16", "nodes=8 accumulation=packed"},
+        .variants = {"nodes=4", "nodes=16", "nodes=8 accumulation=packed"},
         .counters = function_counters_with_lists(),
         .counter_bytes = sizeof(FunctionCounters),
         .views = {layers_view_row, normalization_row<sums>(), motion_row<sums>()},

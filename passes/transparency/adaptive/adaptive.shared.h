@@ -6,12 +6,6 @@
 namespace strata::transparency {
 #endif
 
-struct AdaptiveParams {
-    uint nodes;  // choice: 4, 8, 16
-    uint accumulation;
-    float pool;  // million fragments kept at a time
-};
-
 // A step of the curve: transmittance behind z. Unused nodes are infinitely far.
 struct CurveNode {
     float z;

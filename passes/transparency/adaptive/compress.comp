@@ -5,12 +5,12 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "passes/transparency/adaptive/adaptive.shared.h"
 #include "passes/transparency/functions/function.shared.h"
-#include "passes/transparency/lists/event_lists.shared.h"
+#include "passes/transparency/lists/pixel_lists.shared.h"
 
 layout(push_constant, scalar) uniform Push { Band band; };
 #include "passes/shaders/finished.glsl"
-#include "passes/transparency/lists/events.glsl"
-#include "passes/transparency/lists/per_turn.glsl"
+#include "passes/transparency/lists/fragments.glsl"
+#include "passes/transparency/lists/per_iteration.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint curve_nodes = 8u;
@@ -22,7 +22,7 @@ const float far_away = 3.402823466e38;
 CurveNode nodes[most_curve_nodes + 1u];  // indexed by constants alone: registers, and loops that are unrolled
 uint used = 0u;
 
-float grey(vec3 t) { return dot(t, vec3(1.0 / 3.0)); }
+float gray(vec3 t) { return dot(t, vec3(1.0 / 3.0)); }
 
 // A fragment hides everything behind it, whatever was there before.
 void insert(float z, vec3 t) {
@@ -42,7 +42,7 @@ void remove_least() {
     uint least = 1u;
     float least_area = far_away;
     [[unroll]] for (uint i = 1u; i < curve_nodes; ++i) {
-        const float area = (nodes[i].z - nodes[i - 1u].z) * (grey(nodes[i - 1u].t) - grey(nodes[i].t));
+        const float area = (nodes[i].z - nodes[i - 1u].z) * (gray(nodes[i - 1u].t) - gray(nodes[i].t));
         if (area < least_area) {
             least = i;
             least_area = area;
@@ -56,7 +56,7 @@ void remove_least() {
 }
 
 void add(ListKey key) {
-    insert(key.z, events[key.event].t);
+    insert(key.z, fragments[key.fragment].t);
     if (used > curve_nodes) remove_least();
 }
 
@@ -65,8 +65,8 @@ void main() {
     if (at.x >= band.width || at.y >= band.rows) return;
     const uvec2 pixel = uvec2(at.x, at.y + band.first_row);
     const uint cell = cell_of(pixel, at.z), start = starts[cell], count = list_count(cell);
-    for (uint i = 0u; i < count; i += per_turn)
-        [[unroll]] for (uint k = 0u; k < per_turn; ++k)
+    for (uint i = 0u; i < count; i += per_iteration)
+        [[unroll]] for (uint k = 0u; k < per_iteration; ++k)
             if (i + k < count) add(keys[start + i + k]);
     if (!finished(band.width)) atomicAdd(counters.lists.unfinished, 1u);
     const uint first = cell * curve_nodes;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "passes/settings.h"
+#include "passes/stage_input.h"
+#include "passes/transparency/adaptive/adaptive_params.h"
 #include "passes/transparency/functions/model.h"
 
 namespace strata::transparency {

@@ -1,11 +1,18 @@
-// The method in double precision, from the paper and not from the shader.
+// The technique in double precision, from the paper and not from the shader.
 #pragma once
 
 #include <span>
 
+#include "passes/image_set.h"
 #include "passes/reference/fragments.h"
-#include "passes/technique.h"
 #include "passes/transparency/adaptive/adaptive.shared.h"
+
+namespace strata {
+
+class Settings;     // passes/settings.h
+struct StageInput;  // passes/stage_input.h
+
+}  // namespace strata
 
 namespace strata::transparency {
 

@@ -1,8 +1,10 @@
 // Objects from back to front, each blended over what is there: what most renderers do.
+#include "passes/frame_images.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "passes/transparency/alpha_blend/alpha_blend.shared.h"
 #include "passes/transparency/distortion/bent_background.h"
-#include "passes/transparency/event_draw.h"
+#include "passes/transparency/fragment_draw.h"
 
 namespace strata::transparency {
 
@@ -14,17 +16,19 @@ void declare(Graph& graph, FrameImages& images, const Settings&) {
     distort_background(graph, images);
     Image color = gather(graph, images.color, "alpha_blend color");
     if (has(images.capabilities, Capability::dual_source_blending)) {
-        draw_events(graph, "transparency/alpha_blend/composite", images.back_to_front, images).composites(color);
+        draw_fragments(graph, "transparency/alpha_blend/composite", images.back_to_front, images).composites(color);
     } else {
-        draw_events(graph, "transparency/alpha_blend/composite_grey", images.back_to_front, images).composites_grey(color);
+        draw_fragments(graph, "transparency/alpha_blend/composite_gray", images.back_to_front, images).composites_gray(color);
     }
     images.color = spread(graph, color, graph.record(images.color).name);
 }
 
-std::optional<std::string> beyond_device(const FrameImages& images, const Settings&) {
+std::optional<Error> beyond_device(const FrameImages& images, const Settings&) {
     if (has(images.capabilities, Capability::dual_source_blending) || !images.features->has(Feature::chromatic))
         return std::nullopt;
-    return "transparency/alpha_blend blends colored transmittance with dual_source_blending, which this device does not have";
+    return fail(Fault::device_lacks, "device.lacks_feature",
+                "{technique} blends colored transmittance with {feature}, which this device does not have",
+                "transparency/alpha_blend", "dual_source_blending");
 }
 
 }  // namespace

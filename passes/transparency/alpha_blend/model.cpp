@@ -1,6 +1,7 @@
 // Alpha blending in double: one object after another in painter's order, its triangles as they were submitted.
 #include "passes/transparency/distortion/model.h"
-#include "passes/technique.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 
 namespace strata::transparency {
 namespace {

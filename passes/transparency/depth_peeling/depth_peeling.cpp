@@ -1,8 +1,11 @@
 // Depth peeling: each pass draws everything and keeps the layer behind the one before.
+#include "passes/frame_images.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "passes/transparency/depth_peeling/depth_peeling.shared.h"
+#include "passes/transparency/depth_peeling/depth_peeling_params.h"
 #include "passes/transparency/distortion/bent_background.h"
-#include "passes/transparency/event_draw.h"
+#include "passes/transparency/fragment_draw.h"
 
 namespace strata::transparency {
 
@@ -40,7 +43,7 @@ Image create_layers(Graph& graph, const FrameImages& images, const char* name, F
 Image peel(Graph& graph, const FrameImages& images, std::uint32_t pass, Targets& targets, const Image& peeled_depth,
            const Buffer& draw_counts) {
     graph.clear(targets.depth, {});
-    DrawPass draw = draw_events_untested(graph, "transparency/depth_peeling/peel", images.transparent, images);
+    DrawStep draw = draw_fragments_untested(graph, "transparency/depth_peeling/peel", images.transparent, images);
     draw.covers(targets.color).covers(targets.through).writes_depth(targets.depth).samples("peeled_depth", peeled_depth);
     // Without counted draws the passes behind the last layer draw and find nothing.
     if (pass > 0 && has(images.capabilities, Capability::counted_draws)) draw.counted(draw_counts, pass * sizeof(std::uint32_t));
@@ -99,7 +102,7 @@ Technique depth_peeling() {
                                                        .high = 64,
                                                        .fallback = 8,
                                                        .help = "layers peeled; transparent geometry is drawn once for each"})},
-        .points = {"passes=2", "passes=4", "passes=16", "passes=64"},
+        .variants = {"passes=2", "passes=4", "passes=16", "passes=64"},
         .counters = {counter<&DepthPeelingCounters::fragments>(
                          {.name = "fragments", .help = "visible transparent fragments shaded, in all passes"}),
                      counter<&DepthPeelingCounters::peeled>({.name = "peeled", .help = "fragments that became part of a layer"})},

@@ -6,10 +6,6 @@
 namespace strata::transparency {
 #endif
 
-struct DepthPeelingParams {
-    uint passes;
-};
-
 struct CompositePush {
     uint next_pass;
     uint draws;  // of a pass that has something to peel

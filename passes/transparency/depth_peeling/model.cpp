@@ -2,6 +2,11 @@
 
 #include <algorithm>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame_features.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
+#include "passes/transparency/depth_peeling/depth_peeling_params.h"
 #include "passes/transparency/distortion/model.h"
 #include "passes/transparency/sample_blend.h"
 

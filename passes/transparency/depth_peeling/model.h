@@ -1,11 +1,18 @@
-// The method in double precision.
+// The technique in double precision.
 #pragma once
 
 #include <span>
 
+#include "passes/image_set.h"
 #include "passes/reference/fragments.h"
-#include "passes/technique.h"
 #include "passes/transparency/depth_peeling/depth_peeling.shared.h"
+
+namespace strata {
+
+class Settings;     // passes/settings.h
+struct StageInput;  // passes/stage_input.h
+
+}  // namespace strata
 
 namespace strata::transparency {
 

@@ -1,9 +1,9 @@
-// Keeps the nearest fragment behind the one of the pass before. Depth is that of the event, depth offset applied, so that it goes
+// Keeps the nearest fragment behind the one of the pass before. Depth is that of the fragment, depth offset applied, so that it goes
 // into a depth buffer of its own; opaque surfaces are tested here, with the depth of the surface.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/depth_peeling/depth_peeling.shared.h"
-#include "passes/transparency/event.glsl"
+#include "passes/transparency/fragment.glsl"
 
 layout(location = 0) out vec4 out_color;  // p + e
 layout(location = 1) out vec4 out_through;
@@ -18,13 +18,13 @@ float device_depth(float z) {
 }
 
 void main() {
-    const Event event = transparent_event();
+    const Fragment fragment = transparent_fragment();
     const ivec3 texel = ivec3(gl_FragCoord.xy, gl_SampleID);
-    if (!event.visible || gl_FragCoord.z < texelFetch(depth_layers, texel, 0).r) discard;
+    if (!fragment.visible || gl_FragCoord.z < texelFetch(depth_layers, texel, 0).r) discard;
     atomicAdd(counters.fragments, 1u);
-    const float depth = device_depth(event.z);
+    const float depth = device_depth(fragment.z);
     if (depth >= texelFetch(peeled_depth, texel, 0).r) discard;
     gl_FragDepth = depth;
-    out_color = vec4(event.p + event.e, 0.0);
-    out_through = vec4(event.t, 1.0);
+    out_color = vec4(fragment.p + fragment.e, 0.0);
+    out_through = vec4(fragment.t, 1.0);
 }

@@ -1,6 +1,8 @@
 // What depth peeling does not get to.
-#include "passes/technique.h"
-#include "passes/transparency/depth_peeling/depth_peeling.shared.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/settings.h"
+#include "passes/transparency/depth_peeling/depth_peeling_params.h"
 #include "passes/transparency/layers_beyond.h"
 
 namespace strata::transparency {

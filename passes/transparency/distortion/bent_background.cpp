@@ -1,6 +1,8 @@
 #include "passes/transparency/distortion/bent_background.h"
 
-#include "passes/transparency/event_draw.h"
+#include "capture_format/frame_features.h"
+#include "passes/frame_images.h"
+#include "passes/transparency/fragment_draw.h"
 
 namespace strata::transparency {
 
@@ -17,7 +19,7 @@ void distort_background(Graph& graph, FrameImages& images) {
     Image offsets =
         graph.create("distortion", Shape{.extent = images.extent, .format = Format::rgba32f, .samples = images.samples});
     graph.clear(offsets, {});
-    draw_events(graph, "transparency/distortion/offsets", images.back_to_front, images).composites_grey(offsets);
+    draw_fragments(graph, "transparency/distortion/offsets", images.back_to_front, images).composites_gray(offsets);
     const Image layers = by_sample(graph, offsets);
     graph.compute("transparency/distortion/background.comp")
         .updates("color", images.color)

@@ -1,5 +1,7 @@
 #include "passes/transparency/distortion/model.h"
 
+#include "capture_format/frame_features.h"
+#include "passes/stage_input.h"
 #include "passes/transparency/low_resolution/bilinear_taps.h"
 
 namespace strata::transparency {

@@ -1,10 +1,11 @@
-// The step function itself, from sorted lists, through the draw and the resolve of all function methods: what they cost and how
-// exact they can be when T(z) is.
+// The step function itself, from sorted lists, through the draw and the resolve of all function techniques: what they cost and
+// how exact they can be when T(z) is.
+#include "passes/stage_input.h"
 #include "passes/technique.h"
-#include "passes/transparency/exact_function/exact_function.shared.h"
+#include "passes/transparency/exact_function/exact_function_params.h"
 #include "passes/transparency/functions/draw.h"
 #include "passes/transparency/functions/motion.h"
-#include "passes/transparency/lists/event_lists.h"
+#include "passes/transparency/lists/pixel_lists.h"
 
 namespace strata::transparency {
 
@@ -14,16 +15,16 @@ namespace {
 
 FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, Offsets offsets) {
     const auto params = settings.as<ExactFunctionParams>();
-    EventLists lists = create_lists(graph, images, params.pool);
+    PixelLists lists = create_lists(graph, images, params.pool);
     FunctionSums drawn = create_sums(graph, images, {.accumulation = params.accumulation, .offsets = offsets});
     for (const Band& band : lists.bands) {
         make_lists(graph, images, lists, band, list_order_depth);
         read_places(graph.compute("transparency/exact_function/products.comp"), lists, band)
             .loads("Keys", lists.keys)
-            .updates("Events", lists.events)
-            .fixes("per_turn", fragments_per_turn(lists))
+            .updates("Fragments", lists.fragments)
+            .fixes("per_iteration", fragments_per_iteration(lists))
             .over(over(band));
-        draw_into(graph, "transparency/exact_function/accumulate", images, drawn, [&](DrawPass& draw, Resolution resolution) {
+        draw_into(graph, "transparency/exact_function/accumulate", images, drawn, [&](DrawStep& draw, Resolution resolution) {
             read_lists(draw, lists, band).in_rows(rows_of(band, resolution == Resolution::low ? 2 : 1));
         });
     }
@@ -43,7 +44,7 @@ Technique exact_function() {
             "cost in "
             "accuracy; fragments of equal depth do not hide each other.",
         .params = {param<&ExactFunctionParams::pool>(pool_row), param<&ExactFunctionParams::accumulation>(accumulation_row)},
-        .points = {"accumulation=packed", "accumulation=single"},
+        .variants = {"accumulation=packed", "accumulation=single"},
         .counters = function_counters_with_lists(),
         .counter_bytes = sizeof(FunctionCounters),
         .views = {layers_view_row, normalization_row<sums>(), motion_row<sums>()},

@@ -1,4 +1,4 @@
-// Facts about the draw and the resolve that all function methods share (docs/algorithms/transparency.md 7, oracles F1 to F6).
+// Facts about the draw and the resolve that all function techniques share (docs/algorithms/transparency.md 7, oracles F1 to F6).
 #include <array>
 #include <cmath>
 #include <vector>
@@ -61,7 +61,7 @@ TEST(FunctionResolve, AddsEmissionWithoutCoverage) {
     EXPECT_NEAR(function_blend(dimmed, glm::dvec3(0), exact(dimmed)).x, .15, 1e-12);
 }
 
-TEST(FunctionResolve, IsExactForASingleEvent) {
+TEST(FunctionResolve, IsExactForASingleFragment) {
     for (const double alpha : {1e-4, .01, .5, .999})
         EXPECT_NEAR(function_blend(std::array{layer(1, alpha, 1)}, glm::dvec3(2), nothing_hides).x, alpha + (1 - alpha) * 2,
                     1e-12);

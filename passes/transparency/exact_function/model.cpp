@@ -1,8 +1,9 @@
 // The step function in double.
 #include <algorithm>
 
-#include "passes/technique.h"
-#include "passes/transparency/exact_function/exact_function.shared.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
+#include "passes/transparency/exact_function/exact_function_params.h"
 #include "passes/transparency/functions/model.h"
 #include "passes/transparency/sample_blend.h"
 

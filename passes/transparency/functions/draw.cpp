@@ -2,10 +2,11 @@
 
 #include <utility>
 
+#include "capture_format/frame_features.h"
 #include "passes/choice_names.h"
 #include "passes/transparency/distortion/bent_background.h"
-#include "passes/transparency/event_draw.h"
-#include "passes/transparency/lists/event_lists.h"
+#include "passes/transparency/fragment_draw.h"
+#include "passes/transparency/lists/pixel_lists.h"
 #include "passes/transparency/low_resolution/prepass.h"
 
 namespace strata::transparency {
@@ -53,10 +54,10 @@ ResolutionSums cleared_sums(Graph& graph, const FrameImages& images, const SumOp
 }
 
 void draw_at(Graph& graph, const std::string& shader, const FrameImages& images, Resolution resolution, FunctionSums& all,
-             const std::function<void(DrawPass&, Resolution)>& chain) {
+             const std::function<void(DrawStep&, Resolution)>& chain) {
     ResolutionSums& sums = resolution == Resolution::low ? all.low : all.full;
     for (const DrawList& list : drawn_at(images, resolution)) {
-        DrawPass draw = draw_events(graph, shader, list, images);
+        DrawStep draw = draw_fragments(graph, shader, list, images);
         draw.adds_to(sums.color).adds_to(sums.extinction).adds_to(sums.normalizer);
         if (sums.emission) draw.adds_to(sums.emission);
         if (sums.offset) draw.adds_to(sums.offset);
@@ -103,7 +104,7 @@ FunctionSums create_sums(Graph& graph, const FrameImages& images, const SumOptio
 }
 
 void draw_into(Graph& graph, const std::string& shader, const FrameImages& images, FunctionSums& sums,
-               const std::function<void(DrawPass&, Resolution)>& chain) {
+               const std::function<void(DrawStep&, Resolution)>& chain) {
     draw_at(graph, shader, images, Resolution::full, sums, chain);
     if (sums.low.color) draw_at(graph, shader, sums.low_images, Resolution::low, sums, chain);
 }
@@ -114,9 +115,9 @@ FunctionSums by_sample(Graph& graph, const FunctionSums& sums) {
     return read;
 }
 
-ComputePass over_sums(Graph& graph, const std::string& shader, const FrameImages& images, const FunctionSums& sums) {
-    ComputePass pass = graph.compute(shader);
-    return pass.samples("extinction", sums.full.extinction)
+ComputeStep over_sums(Graph& graph, const std::string& shader, const FrameImages& images, const FunctionSums& sums) {
+    ComputeStep builder = graph.compute(shader);
+    return builder.samples("extinction", sums.full.extinction)
         .samples("normalizer", sums.full.normalizer)
         .samples("low_extinction", sums.low.extinction)
         .samples("low_normalizer", sums.low.normalizer)

@@ -1,13 +1,18 @@
-// How every method that is a transmittance function T(z) draws and resolves: C = sum p T(z), X = sum of optical depths,
+// How every technique that is a transmittance function T(z) draws and resolves: C = sum p T(z), X = sum of optical depths,
 // N = sum (1 - t) T(z), E = sum e T(z), then L = L_behind exp(-X) + C (1 - exp(-X)) / N + E. For the exact T the factor is 1:
-// sum (1 - t_i) T_i telescopes (docs/algorithms/transparency.md 1 and 7). Methods differ in T alone. Sums have no order, so those
-// of draws at half resolution, which look T(z) up like the others, are added to those at full resolution when they are resolved.
+// sum (1 - t_i) T_i telescopes (docs/algorithms/transparency.md 1 and 7). Techniques differ in T alone. Sums have no order, so
+// those of draws at half resolution, which look T(z) up like the others, are added to those at full resolution when they are
+// resolved.
 #pragma once
 
 #include <functional>
 #include <string>
 
-#include "passes/technique.h"
+#include "capture_format/frame/draw.h"
+#include "passes/debug_views.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/settings.h"
 #include "passes/transparency/functions/function.shared.h"
 
 namespace strata::transparency {
@@ -17,7 +22,7 @@ enum class Offsets { distortion, motion };
 
 struct SumOptions {
     std::uint32_t accumulation = accumulation_half;  ///< formats: see function.shared.h
-    std::uint32_t tint = tint_total;                 ///< another is for methods with one channel of T(z)
+    std::uint32_t tint = tint_total;                 ///< another is for techniques with one channel of T(z)
     Offsets offsets = Offsets::distortion;
 };
 
@@ -30,16 +35,16 @@ struct FunctionSums {
     ResolutionSums full;     ///< drawn with the frame's samples
     ResolutionSums low;      ///< half the extent, one sample; no images where nothing is drawn so
     FrameImages low_images;  ///< what those draws see
-    SumOptions options;      ///< nothing tints in a grey frame
+    SumOptions options;      ///< nothing tints in a gray frame
 };
 
 /// Cleared sums.
 FunctionSums create_sums(Graph&, const FrameImages&, const SumOptions&);
 
 /// Declares the draws that add every fragment to the sums: one, and more in a frame of two resolutions. The fragment shader
-/// includes outputs.glsl and calls write_event(); `chain` adds the technique's own verbs to each.
+/// includes outputs.glsl and calls write_fragment(); `chain` adds the technique's own verbs to each.
 void draw_into(Graph&, const std::string& shader, const FrameImages&, FunctionSums&,
-               const std::function<void(DrawPass&, Resolution)>& chain);
+               const std::function<void(DrawStep&, Resolution)>& chain);
 
 /// Blends the sums over images.color.
 void resolve_sums(Graph&, FrameImages&, const FunctionSums&);
@@ -47,12 +52,12 @@ void resolve_sums(Graph&, FrameImages&, const FunctionSums&);
 /// The sums as steps after the draw read them, and the beginning of such a step, which includes sums.glsl: X and N are
 /// bound.
 FunctionSums by_sample(Graph&, const FunctionSums&);
-ComputePass over_sums(Graph&, const std::string& shader, const FrameImages&, const FunctionSums& by_sample);
+ComputeStep over_sums(Graph&, const std::string& shader, const FrameImages&, const FunctionSums& by_sample);
 
 /// The rows of the `accumulation` and `tint` parameters.
 extern const Param accumulation_row, tint_row;
 
-/// Rows of FunctionCounters: what is drawn; with those of the lists in front for methods that make lists.
+/// Rows of FunctionCounters: what is drawn; with those of the lists in front for techniques that make lists.
 std::vector<Counter> function_counters();
 std::vector<Counter> function_counters_with_lists();
 
@@ -63,7 +68,7 @@ Image normalization_view(Graph&, const FrameImages&, const FunctionSums&);
 /// A technique's own part: everything up to the sums.
 using SumsFunction = FunctionSums (*)(Graph&, FrameImages&, const Settings&, Offsets);
 
-/// Technique::add of a method that is its sums.
+/// Technique::add of a technique that is its sums.
 template <SumsFunction sums>
 void add_function(Graph& graph, FrameImages& images, const Settings& settings) {
     resolve_sums(graph, images, sums(graph, images, settings, Offsets::distortion));

@@ -1,7 +1,7 @@
-// What methods that are a transmittance function T(z) share: their sums' formats and their counters.
+// What techniques that are a transmittance function T(z) share: their sums' formats and their counters.
 #ifndef PASSES_TRANSPARENCY_FUNCTION_SHARED_H
 #define PASSES_TRANSPARENCY_FUNCTION_SHARED_H
-#include "passes/transparency/lists/event_lists.shared.h"
+#include "passes/transparency/lists/pixel_lists.shared.h"
 #ifdef __cplusplus
 namespace strata::transparency {
 #endif
@@ -17,7 +17,7 @@ const uint tint_skew = 1u;
 const uint tint_corrected = 2u;
 
 struct FunctionCounters {
-    ListCounters lists;  // of methods that make lists, too
+    ListCounters lists;  // of techniques that make lists, too
     uint drawn;
     uint scrubbed;
 };

@@ -7,6 +7,9 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include "capture_format/frame.h"
+#include "capture_format/frame_features.h"
+#include "passes/stage_input.h"
 #include "passes/transparency/distortion/model.h"
 #include "passes/transparency/functions/tint_model.h"
 #include "passes/transparency/low_resolution/model.h"
@@ -70,7 +73,7 @@ Sums sums_of(std::span<const Fragment> fragments, const Transmittance& transmitt
         for (int axis = 0; axis < 2; ++axis)
             sums.offset[axis] = blended(sums.offset[axis], fragment.distortion[axis] * luminance(through), how, half_float);
         for (int c = 0; c < 3; ++c) {
-            // Grey extinction and weights are one half float each, whatever the color's format.
+            // Gray extinction and weights are one half float each, whatever the color's format.
             const SmallFloat color = color_format(how.accumulation, c), weight = how.chromatic ? color : half_float;
             const auto add = [&](double& sum, double term, SmallFloat format) { sum = blended(sum, term, how, format); };
             add(sums.color[c], std::min(fragment.color[c], double(largest_radiance)) * through[c], color);
@@ -181,7 +184,7 @@ struct Found {
 /// For fragments drawn to a pixel (x, y, sample) of an image of `extent`: the frame's, or half of it.
 using Lookup = std::function<Found(std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent)>;
 
-ImageSet modelled(const StageInput& input, const Summing& how, const Lookup& lookup) {
+ImageSet modeled(const StageInput& input, const Summing& how, const Lookup& lookup) {
     const auto summed = [&](std::span<const Fragment> fragments, glm::uvec3 at, glm::uvec2 extent) -> LowSums<Sums>::Texel {
         if (fragments.empty()) return {};
         const Found found = lookup(fragments, at, extent);
@@ -227,13 +230,13 @@ glm::dvec3 function_blend(std::span<const Fragment> fragments, glm::dvec3 behind
 ImageSet function_model(const StageInput& input, std::uint32_t accumulation, const FunctionOfSample& function) {
     const Summing how{accumulation, input.rounding, is_chromatic(input.frame)};
     if (!frame_features(input.frame).has(Feature::low_resolution))
-        return modelled(input, how,
-                        [&](std::span<const Fragment> fragments, glm::uvec3, glm::uvec2) { return Found{function(fragments)}; });
+        return modeled(input, how,
+                       [&](std::span<const Fragment> fragments, glm::uvec3, glm::uvec2) { return Found{function(fragments)}; });
     // T is that of all fragments, of whichever resolution, of the sample under the center.
     const ReferenceImage& before = input.before.at("color");
     std::optional<FragmentLists> own;
     const FragmentLists& all = fragments_of(input, before, own);
-    return modelled(input, how, [&](std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent) {
+    return modeled(input, how, [&](std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent) {
         const glm::uvec2 pixel = texel_under(glm::uvec2(at), extent, {before.width, before.height});
         return Found{function(all.at(pixel.x, pixel.y, at.z)), all.undecided(pixel.x, pixel.y, at.z)};
     });
@@ -245,7 +248,7 @@ ImageSet function_model(const StageInput& input, std::uint32_t accumulation, con
     tbb::enumerable_thread_specific<Read> reads;
     const bool chromatic = is_chromatic(input.frame);
     const Summing how{accumulation, input.rounding, chromatic, model.unseen, chromatic ? model.tint : tint_total};
-    return modelled(input, how, [&](std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent) {
+    return modeled(input, how, [&](std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent) {
         Read& read = reads.local();
         read = read_at(projected, model, extent, glm::uvec2(at));
         return Found{model.function(read.numbers, read.texel), read.undecided};

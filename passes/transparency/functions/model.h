@@ -1,20 +1,27 @@
-// The draw and the resolve of draw.h in double: for methods that are a transmittance function.
+// The draw and the resolve of draw.h in double: for techniques that are a transmittance function.
 #pragma once
 
 #include <functional>
 #include <span>
 #include <vector>
 
+#include "passes/blend_rounding.h"
+#include "passes/image_set.h"
 #include "passes/reference/fragments.h"
-#include "passes/stages.h"
 #include "passes/transparency/functions/function.shared.h"
+
+namespace strata {
+
+struct StageInput;  // passes/stage_input.h
+
+}  // namespace strata
 
 namespace strata::transparency {
 
 /// T(z) at a fragment, per channel.
 using Transmittance = std::function<glm::dvec3(const Fragment&)>;
 
-/// What an event with T = 0 in all channels does to the sum of optical depths; to the other sums it adds nothing anyway.
+/// What a fragment with T = 0 in all channels does to the sum of optical depths; to the other sums it adds nothing anyway.
 enum class Unseen { counts, adds_nothing };
 
 /// How fragments are summed.
@@ -43,7 +50,7 @@ ImageSet function_model(const StageInput&, std::uint32_t accumulation, const Fun
 /// Number by number; all texels have as many.
 void add_numbers(std::vector<double>& sum, std::span<const double> numbers, double share);
 
-/// A method with a prepass at the extent divided by `divisor`, at one sample per texel.
+/// A technique with a prepass at the extent divided by `divisor`, at one sample per texel.
 struct PrepassModel {
     std::uint32_t divisor = 1;
     enum class Filter { linear, nearest } filter = Filter::linear;

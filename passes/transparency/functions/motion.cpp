@@ -1,7 +1,7 @@
 #include "passes/transparency/functions/motion.h"
 
 #include "passes/scene/material_uses.h"
-#include "passes/transparency/event_draw.h"
+#include "passes/transparency/fragment_draw.h"
 
 namespace strata::transparency {
 namespace {
@@ -12,7 +12,7 @@ Image opaque_motion(Graph& graph, const FrameImages& images) {
                                 Shape{.extent = images.extent, .format = Format::rg32f, .samples = images.samples});
     graph.clear(motion, {});
     if (images.opaque.count > 0) {
-        DrawPass draw = graph.draw("transparency/functions/opaque_motion", images.opaque);
+        DrawStep draw = graph.draw("transparency/functions/opaque_motion", images.opaque);
         fix_materials(draw, images, Surfaces::opaque).tests_depth(images.depth).covers(motion);
     }
     return by_sample(graph, motion);

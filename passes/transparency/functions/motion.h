@@ -1,4 +1,4 @@
-// How far what a method shows has moved since the frame before, as motion vectors of a frame are
+// How far what a technique shows has moved since the frame before, as motion vectors of a frame are
 // (docs/algorithms/transparency.md 6.13): fragments weighted as their color is, over what is opaque behind them.
 #pragma once
 

@@ -15,7 +15,7 @@ vec3 optical_depth(vec3 t) { return vec3(optical_depth(t.r), optical_depth(t.g),
 float opacity(float x) { return x < 0.01 ? x * (1.0 - x * (0.5 - x * (1.0 / 6.0))) : 1.0 - exp(-x); }
 vec3 opacity(vec3 x) { return vec3(opacity(x.r), opacity(x.g), opacity(x.b)); }
 
-// Of one channel of transmittance; 3: one number for a colored event, that of the luminance it lets through
+// Of one channel of transmittance; 3: one number for a colored fragment, that of the luminance it lets through
 // (docs/algorithms/transparency.md 0.3).
 const uint luminance_channel = 3u;
 float channel_depth(vec3 t, uint channel) {

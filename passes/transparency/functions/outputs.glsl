@@ -1,5 +1,5 @@
-// What the draw of a method with a transmittance function adds for an event: see draw.h. The shader that includes this,
-// after event.glsl, finds T(z) its own way and calls write_event() once.
+// What the draw of a technique with a transmittance function adds for a fragment: see draw.h. The shader that includes this,
+// after fragment.glsl, finds T(z) its own way and calls write_fragment() once.
 #ifndef PASSES_TRANSPARENCY_FUNCTION_OUTPUTS_GLSL
 #define PASSES_TRANSPARENCY_FUNCTION_OUTPUTS_GLSL
 #include "passes/transparency/functions/function.shared.h"
@@ -27,25 +27,25 @@ vec2 drawn_place() { return (floor(gl_FragCoord.xy) + 0.5) / vec2(drawn_extent()
 uvec2 texel_under(uvec2 extent) { return (2u * uvec2(gl_FragCoord.xy) + 1u) * extent / (2u * drawn_extent()); }
 
 // N and X of one channel, and what the skew is made of. through: T(z), one for all channels.
-vec4 tinting_weights(inout Event event, float through) {
-    const vec2 depths = skew_depths(event.t, through * fog_before_here());
+vec4 tinting_weights(inout Fragment fragment, float through) {
+    const vec2 depths = skew_depths(fragment.t, through * fog_before_here());
     if (tint == tint_corrected) {
-        event.p /= skew(depths);
-        event.e /= skew(depths);
+        fragment.p /= skew(depths);
+        fragment.e /= skew(depths);
     }
-    const float t = luminance(event.t);
+    const float t = luminance(fragment.t);
     return vec4((1.0 - t) * through, optical_depth(t), depths);
 }
 
-// through: T(z) of the event, per channel.
-void write_event(Event event, vec3 through) {
-    out_extinction = vec4(optical_depth(event.t), 0.0);
-    out_normalizer = vec4((1.0 - event.t) * through, 0.0);
-    if (tint != tint_total) out_normalizer = tinting_weights(event, through.r);
-    out_color = vec4(min(event.p, largest_radiance) * through, 0.0);
-    out_emission = vec4(min(event.e, largest_radiance) * through, 0.0);
-    out_offset = vec4(event.d * luminance(through), 0.0, 0.0);
-    if (moves != 0u) out_offset.xy = pixels_moved(position_here(), in_draw) * luminance((1.0 - event.t) * through);
+// through: T(z) of the fragment, per channel.
+void write_fragment(Fragment fragment, vec3 through) {
+    out_extinction = vec4(optical_depth(fragment.t), 0.0);
+    out_normalizer = vec4((1.0 - fragment.t) * through, 0.0);
+    if (tint != tint_total) out_normalizer = tinting_weights(fragment, through.r);
+    out_color = vec4(min(fragment.p, largest_radiance) * through, 0.0);
+    out_emission = vec4(min(fragment.e, largest_radiance) * through, 0.0);
+    out_offset = vec4(fragment.d * luminance(through), 0.0, 0.0);
+    if (moves != 0u) out_offset.xy = pixels_moved(position_here(), in_draw) * luminance((1.0 - fragment.t) * through);
 }
 
 #endif

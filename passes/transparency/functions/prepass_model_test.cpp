@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "captures/scenarios.h"
+#include "passes/stage_input.h"
 #include "passes/transparency/functions/model.h"
 
 namespace strata::transparency {

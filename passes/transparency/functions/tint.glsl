@@ -1,11 +1,11 @@
 // Color where T(z) has one channel (docs/algorithms/transparency.md 6.12): what is drawn is multiplied by T' / luminance(T'), T'
 // being the product of all layers' transmittance, each as far as it is seen. Only what T' has of red and blue more than of green
-// matters, so two sums of optical depth say it, to which what is grey adds exactly 0.
+// matters, so two sums of optical depth say it, to which what is gray adds exactly 0.
 #ifndef PASSES_TRANSPARENCY_TINT_GLSL
 #define PASSES_TRANSPARENCY_TINT_GLSL
 #include "passes/transparency/functions/optical_depth.glsl"
 
-// What an event adds. seen: T(z), fogged.
+// What a fragment adds. seen: T(z), fogged.
 vec2 skew_depths(vec3 t, float seen) {
     const vec3 tau = optical_depth(t);
     const vec3 more = min(tau - min(tau.r, min(tau.g, tau.b)), largest_skew_depth);

@@ -1,8 +1,10 @@
 // The K nearest fragments of a sample, kept in order by 64-bit atomics; what is behind them becomes a tail.
 #include "passes/choice_names.h"
+#include "passes/frame_images.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "passes/transparency/distortion/bent_background.h"
-#include "passes/transparency/event_draw.h"
+#include "passes/transparency/fragment_draw.h"
 #include "passes/transparency/k_buffer/k_buffer.shared.h"
 
 namespace strata::transparency {
@@ -40,7 +42,7 @@ Tail create_tail(Graph& graph, const FrameImages& images, std::uint32_t kind) {
 
 /// Keeps what is nearest in the slots and adds the rest to the tail.
 void keep(Graph& graph, const FrameImages& images, const KBufferParams& params, Buffer& slots, Tail& tail) {
-    DrawPass draw = draw_events(graph, keeping_shaders[params.tail], images.transparent, images);
+    DrawStep draw = draw_fragments(graph, keeping_shaders[params.tail], images.transparent, images);
     draw.updates("Slots", slots).push(params);
     if (params.tail == tail_blend) draw.composites(tail.color);
     if (params.tail == tail_hybrid) draw.adds_to(tail.color).adds_to(tail.count);
@@ -66,10 +68,12 @@ void declare(Graph& graph, FrameImages& images, const Settings& settings) {
         .over({images.extent.width, images.extent.height, images.samples});
 }
 
-std::optional<std::string> beyond_device(const FrameImages& images, const Settings& settings) {
+std::optional<Error> beyond_device(const FrameImages& images, const Settings& settings) {
     if (settings.as<KBufferParams>().tail != tail_blend || has(images.capabilities, Capability::dual_source_blending))
         return std::nullopt;
-    return "transparency/k_buffer needs dual_source_blending for tail=blend, which this device does not have";
+    return fail(Fault::device_lacks, "device.lacks_feature",
+                "{technique} needs {feature} for {setting}, which this device does not have", "transparency/k_buffer",
+                "dual_source_blending", "tail=blend");
 }
 
 }  // namespace
@@ -78,6 +82,7 @@ Technique k_buffer() {
     return {
         .stage = Stage::transparency,
         .name = "transparency/k_buffer",
+        .aliases = {"kbuffer"},
         .title = "K-buffer",
         .source =
             "Bavoil et al. 2007, I3D; hybrid tail: Maule, Comba, Torchelsen and Bastos 2013, I3D; 64-bit chain of "
@@ -96,7 +101,7 @@ Technique k_buffer() {
                   .help =
                       "fragments behind the kept layers; drop: lost; blend: blended in the order of drawing; hybrid: averaged",
                   .choices = tails})},
-        .points = {"layers=2", "layers=4", "layers=16", "layers=4 tail=drop", "layers=4 tail=blend"},
+        .variants = {"layers=2", "layers=4", "layers=16", "layers=4 tail=drop", "layers=4 tail=blend"},
         .counters = {counter<&KBufferCounters::fragments>({.name = "fragments", .help = "visible transparent fragments shaded"}),
                      counter<&KBufferCounters::displaced>(
                          {.name = "displaced", .help = "fragments not among the nearest layers: the tail"}),

@@ -3,7 +3,7 @@
 #ifndef PASSES_TRANSPARENCY_K_BUFFER_KEEP_GLSL
 #define PASSES_TRANSPARENCY_K_BUFFER_KEEP_GLSL
 #extension GL_EXT_shader_atomic_int64 : require
-#include "passes/transparency/event.glsl"
+#include "passes/transparency/fragment.glsl"
 #include "passes/transparency/k_buffer/k_buffer.shared.h"
 #include "passes/transparency/k_buffer/keys.glsl"
 #include "passes/transparency/k_buffer/slots.glsl"
@@ -14,9 +14,9 @@ layout(set = 0, binding = 1, scalar) buffer Slots { uint64_t slots[]; };
 layout(set = 0, binding = 2, scalar) buffer Counters { KBufferCounters counters; };
 
 // The key that had no place in the end: this fragment's or one it displaced; empty_slot when there was room.
-uint64_t keep(Event event) {
+uint64_t keep(Fragment fragment) {
     const ivec3 texel = ivec3(gl_FragCoord.xy, gl_SampleID);
-    uint64_t carried = key_of(event.z, event.alpha, event.p + event.e);
+    uint64_t carried = key_of(fragment.z, fragment.alpha, fragment.p + fragment.e);
     // What the last slot holds only ever comes nearer: behind an old value of it is behind it.
     const bool behind_all = carried >= slots[slot_index(texel, params.layers - 1u)];
     const uint tried = behind_all ? 0u : params.layers;

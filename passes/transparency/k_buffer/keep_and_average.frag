@@ -7,9 +7,9 @@ layout(location = 0) out vec4 out_sum;    // of p + e, and of alpha
 layout(location = 1) out float out_count;  // of what covers
 
 void main() {
-    const Event event = transparent_event();
-    if (!event.visible) discard;
-    const uint64_t fallen = keep(event);
+    const Fragment fragment = transparent_fragment();
+    if (!fragment.visible) discard;
+    const uint64_t fallen = keep(fragment);
     if (fallen == empty_slot) discard;
     const Layer layer = layer_of(fallen);
     out_sum = vec4(layer.color, layer.alpha);

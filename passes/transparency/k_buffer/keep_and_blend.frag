@@ -7,9 +7,9 @@ layout(location = 0, index = 0) out vec4 out_added;    // the tail's radiance, a
 layout(location = 0, index = 1) out vec4 out_through;  // multiplies the radiance and the tail's transmittance
 
 void main() {
-    const Event event = transparent_event();
-    if (!event.visible) discard;
-    const uint64_t fallen = keep(event);
+    const Fragment fragment = transparent_fragment();
+    if (!fragment.visible) discard;
+    const uint64_t fallen = keep(fragment);
     if (fallen == empty_slot) discard;
     const Layer layer = layer_of(fallen);
     out_added = vec4(layer.color, 0.0);

@@ -4,7 +4,7 @@
 #include "passes/transparency/k_buffer/keep.glsl"
 
 void main() {
-    const Event event = transparent_event();
-    if (!event.visible) discard;
-    keep(event);
+    const Fragment fragment = transparent_fragment();
+    if (!fragment.visible) discard;
+    keep(fragment);
 }

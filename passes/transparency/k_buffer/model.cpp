@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 #include "passes/transparency/distortion/model.h"
 #include "passes/transparency/rounding.h"
 #include "passes/transparency/sample_blend.h"

@@ -1,11 +1,18 @@
-// The method in double precision. What it stores is rounded as the method says: that is part of it.
+// The technique in double precision. What it stores is rounded as the technique says: that is part of it.
 #pragma once
 
 #include <span>
 
+#include "passes/image_set.h"
 #include "passes/reference/fragments.h"
-#include "passes/technique.h"
 #include "passes/transparency/k_buffer/k_buffer.shared.h"
+
+namespace strata {
+
+class Settings;     // passes/settings.h
+struct StageInput;  // passes/stage_input.h
+
+}  // namespace strata
 
 namespace strata::transparency {
 

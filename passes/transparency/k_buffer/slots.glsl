@@ -1,4 +1,4 @@
-// Where a sample's slots are: one plane of the frame's samples after the other, so that neighbours lie side by side.
+// Where a sample's slots are: one plane of the frame's samples after the other, so that neighbors lie side by side.
 #ifndef PASSES_TRANSPARENCY_K_BUFFER_SLOTS_GLSL
 #define PASSES_TRANSPARENCY_K_BUFFER_SLOTS_GLSL
 #include "passes/shaders/scene.glsl"

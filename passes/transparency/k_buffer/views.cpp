@@ -1,5 +1,7 @@
 // What the K-buffer has no place for.
-#include "passes/technique.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/settings.h"
 #include "passes/transparency/k_buffer/k_buffer.shared.h"
 #include "passes/transparency/layers_beyond.h"
 

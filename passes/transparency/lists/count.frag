@@ -3,10 +3,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "passes/transparency/lists/event_lists.shared.h"
+#include "passes/transparency/lists/pixel_lists.shared.h"
 
 layout(push_constant, scalar) uniform Push { Band band; };
-#include "passes/transparency/lists/event_lists.glsl"
+#include "passes/transparency/lists/pixel_lists.glsl"
 
 layout(early_fragment_tests) in;
 layout(set = 0, binding = 1, scalar) buffer Ends { uint ends[]; };

@@ -2,31 +2,31 @@
 // run to run; what the sorted list says does not, because no two fragments of a sample have the same key.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/transparency/event.glsl"
-#include "passes/transparency/lists/event_lists.shared.h"
+#include "passes/transparency/fragment.glsl"
+#include "passes/transparency/lists/pixel_lists.shared.h"
 
 layout(push_constant, scalar) uniform Push { Band band; };
-#include "passes/transparency/lists/event_lists.glsl"
+#include "passes/transparency/lists/pixel_lists.glsl"
 
 layout(early_fragment_tests) in;
 layout(set = 0, binding = 1, scalar) buffer Ends { uint ends[]; };
 layout(set = 0, binding = 4, scalar) writeonly buffer Keys { ListKey keys[]; };
 layout(set = 0, binding = 8, scalar) writeonly buffer Submissions { ListSubmission submissions[]; };
-layout(set = 0, binding = 5, scalar) writeonly buffer Events { ListEvent events[]; };
+layout(set = 0, binding = 5, scalar) writeonly buffer Fragments { ListFragment fragments[]; };
 layout(set = 0, binding = 7, scalar) writeonly buffer Offsets { vec2 offsets[]; };
 layout(set = 0, binding = 6, scalar) buffer Counters { ListCounters counters; };
 
 void main() {
-    const Event event = transparent_event();
+    const Fragment fragment = transparent_fragment();
     const uvec2 pixel = uvec2(gl_FragCoord.xy);
-    if (!event.visible || !in_band(pixel.y)) return;
+    if (!fragment.visible || !in_band(pixel.y)) return;
     const uint node = atomicAdd(ends[cell_of(pixel, gl_SampleID)], 1u);
     if (node >= band.pool) {
         atomicAdd(counters.dropped, 1u);
         return;
     }
-    keys[node] = ListKey(event.z, node);
+    keys[node] = ListKey(fragment.z, node);
     submissions[node] = ListSubmission(in_draw, in_triangle);
-    events[node] = ListEvent(event.p, event.t, event.e);
-    if (distorts != 0u) offsets[node] = event.d;
+    fragments[node] = ListFragment(fragment.p, fragment.t, fragment.e);
+    if (distorts != 0u) offsets[node] = fragment.d;
 }

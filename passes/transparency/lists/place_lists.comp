@@ -6,7 +6,7 @@
 
 layout(local_size_x = 256) in;
 layout(push_constant, scalar) uniform Push { Band band; };
-#include "passes/transparency/lists/event_lists.glsl"
+#include "passes/transparency/lists/pixel_lists.glsl"
 layout(set = 0, binding = 1, scalar) buffer Ends { uint ends[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer Starts { uint starts[]; };
 layout(set = 0, binding = 0, scalar) readonly buffer GroupStarts { uint group_starts[]; };

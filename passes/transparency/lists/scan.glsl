@@ -1,7 +1,7 @@
 // Exclusive prefix sum over a workgroup of 256 threads (Hillis and Steele 1986). Integers: the same on every device.
 #ifndef PASSES_TRANSPARENCY_LISTS_SCAN_GLSL
 #define PASSES_TRANSPARENCY_LISTS_SCAN_GLSL
-#include "passes/transparency/lists/event_lists.shared.h"
+#include "passes/transparency/lists/pixel_lists.shared.h"
 
 const uint scan_threads = 256u;
 shared uint scan_sums[scan_threads];

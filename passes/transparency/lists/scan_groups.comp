@@ -6,7 +6,7 @@
 
 layout(local_size_x = 256) in;
 layout(push_constant, scalar) uniform Push { Band band; };
-#include "passes/transparency/lists/event_lists.glsl"
+#include "passes/transparency/lists/pixel_lists.glsl"
 layout(set = 0, binding = 0, scalar) buffer GroupStarts { uint group_starts[]; };
 
 void main() {

@@ -21,7 +21,7 @@ layout(set = 0, binding = 6, scalar) buffer Counters { ListCounters counters; };
 void sort_gapped(uint first, uint count, uint gap) {
     for (uint i = gap; i < count; ++i) {
         const ListKey key = keys[first + i];
-        const ListSubmission own = submissions[key.event];
+        const ListSubmission own = submissions[key.fragment];
         uint at = i;
         while (at >= gap) {
             const ListKey other = keys[first + at - gap];

@@ -1,6 +1,6 @@
 // Sorts the chunks of the lists that sort.comp left as they are, one workgroup per chunk: a bitonic sort (Batcher 1968) in shared
-// memory. Its turns do not depend on the data. Every comparison moves the later key to the higher place, and the first step of a run compares
-// mirrored places: places beyond the last key act as infinity and need no padding.
+// memory. Its iterations do not depend on the data. Every comparison moves the later key to the higher place, and the first step of a run compares
+// mirrored places: places beyond the last key count as infinity and need no padding.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -6,7 +6,7 @@
 
 layout(local_size_x = 256) in;
 layout(push_constant, scalar) uniform Push { Band band; };
-#include "passes/transparency/lists/event_lists.glsl"
+#include "passes/transparency/lists/pixel_lists.glsl"
 layout(set = 0, binding = 1, scalar) readonly buffer Ends { uint ends[]; };
 layout(set = 0, binding = 0, scalar) writeonly buffer GroupStarts { uint group_starts[]; };
 layout(set = 0, binding = 3, scalar) buffer Counters { ListCounters counters; };

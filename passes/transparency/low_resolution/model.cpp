@@ -2,6 +2,10 @@
 
 #include <utility>
 
+#include "capture_format/frame.h"
+#include "capture_format/frame_features.h"
+#include "passes/stage_input.h"
+
 namespace strata::transparency {
 
 Frame only(const Frame& frame, Resolution resolution) {

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "passes/stages.h"
 #include "passes/transparency/low_resolution/bilinear_taps.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/sample_blend.h"

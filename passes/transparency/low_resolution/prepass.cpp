@@ -1,5 +1,8 @@
 #include "passes/transparency/low_resolution/prepass.h"
 
+#include "capture_format/frame_features.h"
+#include "passes/graph/graph.h"
+
 namespace strata::transparency {
 namespace {
 

@@ -3,11 +3,13 @@
 // texel's block, or what is visible beside an edge would be missing.
 #pragma once
 
-#include "passes/technique.h"
+#include "capture_format/frame/draw.h"
+#include "passes/frame_images.h"
+#include "passes/settings.h"
 
 namespace strata::transparency {
 
-/// The frame's images with extent, samples and opaque depth of the prepass: what draw_events() draws a prepass with. At
+/// The frame's images with extent, samples and opaque depth of the prepass: what draw_fragments() draws a prepass with. At
 /// divisor 1 and one sample they are the frame's own, and nothing is declared.
 FrameImages prepass_images(Graph&, const FrameImages&, std::uint32_t divisor);
 

@@ -1,7 +1,7 @@
 // T(z) from the moments of the texel under the fragment (Muenstermann et al. 2018; docs/algorithms/transparency.md 4.5 to 4.8).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/transparency/event.glsl"
+#include "passes/transparency/fragment.glsl"
 #include "passes/transparency/moments/moments.shared.h"
 #include "passes/transparency/functions/outputs.glsl"
 
@@ -65,12 +65,12 @@ float transmittance(uint channel, float z, float own_depth) {
 }
 
 void main() {
-    const Event event = transparent_event();
-    if (!event.visible) discard;
+    const Fragment fragment = transparent_fragment();
+    if (!fragment.visible) discard;
     vec3 through = vec3(0.0);
     for (uint channel = 0u; channel < push.channels; ++channel)
-        through[channel] = transmittance(channel, event.z, moment_depth(event.t, push.channels == 1u ? 3u : channel));
+        through[channel] = transmittance(channel, fragment.z, moment_depth(fragment.t, push.channels == 1u ? 3u : channel));
     if (push.channels == 1u) through = through.rrr;
     atomicAdd(counters.function.drawn, 1u);
-    write_event(event, through);
+    write_fragment(fragment, through);
 }

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame_features.h"
 #include "passes/reference/ordering.h"
+#include "passes/stage_input.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/moments/canonical.h"
+#include "passes/transparency/moments/moments.shared.h"
 #include "passes/transparency/rounding.h"
 
 namespace strata::transparency {
@@ -17,7 +20,7 @@ bool is_trigonometric(std::uint32_t kind) { return kind >= moments_trig2; }
 std::size_t root_count(std::uint32_t kind) { return 2 + kind % 3; }
 double phase(double w) { return (w + 1) * (pi - wrapping_zone / 2); }
 
-/// b1, b2, ... of one event of optical depth 1.
+/// b1, b2, ... of one fragment of optical depth 1.
 std::vector<double> moments_of(std::uint32_t kind, double w) {
     std::vector<double> moments;
     for (std::size_t i = 1; i <= 2 * root_count(kind); ++i) {
@@ -43,13 +46,13 @@ std::vector<double> bias_moments(const MomentsParams& params) {
     return moments;
 }
 
-/// b0 and the others as the storage keeps them, event by event in submission order. FP32 is part of it: the bias of 5e-7 is only
-/// a few of its steps.
-std::vector<double> stored(const MomentsParams& params, std::span<const WarpedEvent> events, Rounding half) {
+/// b0 and the others as the storage keeps them, fragment by fragment in submission order. FP32 is part of it: the bias of 5e-7 is
+/// only a few of its steps.
+std::vector<double> stored(const MomentsParams& params, std::span<const WarpedFragment> projected, Rounding half) {
     std::vector<double> kept(1 + 2 * root_count(params.kind), 0.);
-    for (const WarpedEvent& event : events) {
-        const std::vector<double> moments = moments_of(params.kind, event.w);
-        const double tau = std::min(event.optical_depth, double(largest_moment_depth)), before = kept[0];
+    for (const WarpedFragment& fragment : projected) {
+        const std::vector<double> moments = moments_of(params.kind, fragment.w);
+        const double tau = std::min(fragment.optical_depth, double(largest_moment_depth)), before = kept[0];
         if (tau <= 0) continue;
         if (params.storage == storage_normalized) {
             std::vector<double> mixed = moments;
@@ -110,9 +113,9 @@ double absorbance_share(std::uint32_t kind, std::span<const double> moments, dou
     return circle_share(moments, phase(w), 2 * pi - wrapping_zone, overestimation);
 }
 
-double transmittance_in_double(const MomentsParams& params, std::span<const WarpedEvent> events, double w,
+double transmittance_in_double(const MomentsParams& params, std::span<const WarpedFragment> projected, double w,
                                double own_optical_depth) {
-    return transmittance_of(params, stored(params, events, Rounding::to_nearest), w, own_optical_depth);
+    return transmittance_of(params, stored(params, projected, Rounding::to_nearest), w, own_optical_depth);
 }
 
 ImageSet moments_model(const StageInput& input, const Settings& settings) {
@@ -129,9 +132,9 @@ ImageSet moments_model(const StageInput& input, const Settings& settings) {
     prepass.project = [=](std::span<const Fragment> fragments, glm::uvec2) {
         std::vector<double> all;
         for (std::size_t channel = 0; channel < channels; ++channel) {
-            std::vector<WarpedEvent> events;
-            for (const Fragment& f : fragments) events.push_back({warped(f.depth), moment_depth(f, channel, channels)});
-            const std::vector<double> kept = stored(params, events, half);
+            std::vector<WarpedFragment> projected;
+            for (const Fragment& f : fragments) projected.push_back({warped(f.depth), moment_depth(f, channel, channels)});
+            const std::vector<double> kept = stored(params, projected, half);
             all.insert(all.end(), kept.begin(), kept.end());
         }
         return all;

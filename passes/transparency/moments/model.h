@@ -1,12 +1,17 @@
-// The method in double precision, from the paper and not from the shader: weights of the canonical representation by a linear
+// The technique in double precision, from the paper and not from the shader: weights of the canonical representation by a linear
 // system, roots between the extrema of the polynomial, instead of closed forms.
 #pragma once
 
 #include <span>
 
-#include "passes/technique.h"
 #include "passes/transparency/functions/model.h"
-#include "passes/transparency/moments/moments.shared.h"
+#include "passes/transparency/moments/moments_params.h"
+
+namespace strata {
+
+class Settings;  // passes/settings.h
+
+}  // namespace strata
 
 namespace strata::transparency {
 
@@ -18,11 +23,11 @@ double absorbance_share(std::uint32_t kind, std::span<const double> moments, dou
 std::vector<double> quantized(std::uint32_t kind, std::span<const double> moments);
 std::vector<double> dequantized(std::uint32_t kind, std::span<const double> stored);
 
-/// T(w) of optical depths at warped depths, through the whole method at full precision or as stored: half floats to nearest.
-struct WarpedEvent {
+/// T(w) of optical depths at warped depths, through the whole technique at full precision or as stored: half floats to nearest.
+struct WarpedFragment {
     double w = 0, optical_depth = 0;
 };
-double transmittance_in_double(const MomentsParams&, std::span<const WarpedEvent>, double w, double own_optical_depth = 0);
+double transmittance_in_double(const MomentsParams&, std::span<const WarpedFragment>, double w, double own_optical_depth = 0);
 
 ImageSet moments_model(const StageInput&, const Settings&);
 

@@ -3,13 +3,15 @@
 
 #include "passes/choice_names.h"
 #include "passes/scene/scene_facts.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
-#include "passes/transparency/event_draw.h"
+#include "passes/transparency/fragment_draw.h"
 #include "passes/transparency/functions/draw.h"
 #include "passes/transparency/functions/motion.h"
-#include "passes/transparency/lists/event_lists.h"
+#include "passes/transparency/lists/pixel_lists.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/moments/moments.shared.h"
+#include "passes/transparency/moments/moments_params.h"
 
 namespace strata::transparency {
 
@@ -70,7 +72,7 @@ void add_up(Graph& graph, const FrameImages& low, const MomentsParams& params, c
     graph.clear(moments.head, {});
     if (moments.tail) graph.clear(moments.tail, {});
     for (std::uint32_t channel = 0; channel < push.channels; ++channel) {
-        DrawPass draw = draw_events(graph, "transparency/moments/project", low.transparent, low);
+        DrawStep draw = draw_fragments(graph, "transparency/moments/project", low.transparent, low);
         draw.adds_to(moments.total, {.layer = channel}).adds_to(moments.head, {.layer = channel});
         if (moments.tail) draw.adds_to(moments.tail, {.layer = channel});
         draw.drops_other_colors().fixes("kind", params.kind).fixes("channel", push.channels == 1 ? 3u : channel).push(push);
@@ -82,7 +84,7 @@ void quantize(Graph& graph, const FrameImages& low, const MomentsParams& params,
         Band band;
         MomentsPush push;
     };
-    EventLists lists = create_lists(graph, low, params.pool);
+    PixelLists lists = create_lists(graph, low, params.pool);
     // Four moments have no others; the shader names them still.
     Image others = moments.tail ? moments.tail : graph.create("no moments", Shape{.format = Format::rgba16_unorm});
     for (const Band& band : lists.bands) {
@@ -92,7 +94,7 @@ void quantize(Graph& graph, const FrameImages& low, const MomentsParams& params,
             .stores("head", moments.head)
             .stores("tail", others)
             .fixes("kind", params.kind)
-            .fixes("per_turn", push.channels * fragments_per_turn(lists))
+            .fixes("per_iteration", push.channels * fragments_per_iteration(lists))
             .push(BandAndMoments{band, push})
             .over(over(band));
     }
@@ -110,7 +112,7 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, O
         add_up(graph, low, params, push, moments);
     }
     FunctionSums drawn = create_sums(graph, images, {.accumulation = params.accumulation, .offsets = offsets});
-    draw_into(graph, "transparency/moments/accumulate", images, drawn, [&](DrawPass& draw, Resolution resolution) {
+    draw_into(graph, "transparency/moments/accumulate", images, drawn, [&](DrawStep& draw, Resolution resolution) {
         const Filter filter = prepass_filter(params.resolution, resolution);
         draw.samples("total", moments.total, filter)
             .samples("head", moments.head, filter)
@@ -178,6 +180,7 @@ Technique moments() {
     return {
         .stage = Stage::transparency,
         .name = "transparency/moments",
+        .aliases = {"mboit"},
         .title = "Moment-based",
         .source = "Muenstermann, Krumpen, Klein and Peters 2018, I3D; half resolution: Sharpe 2018, HPG",
         .summary =
@@ -185,9 +188,9 @@ Technique moments() {
             "between "
             "near-opaque cards, and every further layer bends the whole curve.",
         .params = params(),
-        .points = {"kind=power6", "kind=power8", "kind=trig2", "kind=trig3", "kind=trig4", "storage=half", "storage=normalized",
-                   "kind=power8 storage=normalized", "overestimation=0", "compensation=own", "resolution=half",
-                   "resolution=quarter", "resolution=eighth"},
+        .variants = {"kind=power6", "kind=power8", "kind=trig2", "kind=trig3", "kind=trig4", "storage=half", "storage=normalized",
+                     "kind=power8 storage=normalized", "overestimation=0", "compensation=own", "resolution=half",
+                     "resolution=quarter", "resolution=eighth"},
         .counters = counters(),
         .counter_bytes = sizeof(MomentsCounters),
         .views = {normalization_row<sums>(), motion_row<sums>()},

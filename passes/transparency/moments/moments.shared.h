@@ -21,22 +21,10 @@ const uint storage_normalized = 2u;
 const uint compensation_none = 0u;
 const uint compensation_own = 1u;
 
-struct MomentsParams {
-    uint kind;
-    uint storage;
-    float bias;            // multiplies the published bias of kind and storage
-    float overestimation;  // share of the absorbance at z that counts as in front
-    uint compensation;
-    uint channels;
-    uint resolution;
-    uint accumulation;
-    float pool;  // million fragments kept at a time, for storage_normalized
-};
-
 // Push constants of the steps.
 struct MomentsPush {
-    float log_nearest;  // of the range of depth, in ln metres
-    float per_log;      // warped units per ln metre: 2 / ln(farthest / nearest)
+    float log_nearest;  // of the range of depth, in ln meters
+    float per_log;      // warped units per ln meter: 2 / ln(farthest / nearest)
     float bias;
     float overestimation;
     uint compensation;

@@ -1,5 +1,6 @@
 // Facts about moment-based transparency (docs/algorithms/transparency.md 4: the tables of 4.3, 4.6, 4.8 and 4.9).
 #include "passes/transparency/moments/model.h"
+#include "passes/transparency/moments/moments.shared.h"
 
 #include <array>
 #include <cmath>
@@ -17,41 +18,42 @@ MomentsParams defaults(std::uint32_t kind, std::uint32_t storage = storage_singl
 
 const double half = std::log(2.);
 
-std::vector<WarpedEvent> halves(std::initializer_list<double> places) {
-    std::vector<WarpedEvent> events;
-    for (const double w : places) events.push_back({w, half});
-    return events;
+std::vector<WarpedFragment> halves(std::initializer_list<double> places) {
+    std::vector<WarpedFragment> projected;
+    for (const double w : places) projected.push_back({w, half});
+    return projected;
 }
 
-/// T at every event.
+/// T at every fragment.
 std::vector<double> through(std::uint32_t kind, std::initializer_list<double> places) {
-    const std::vector<WarpedEvent> events = halves(places);
+    const std::vector<WarpedFragment> projected = halves(places);
     std::vector<double> found;
-    for (const WarpedEvent& event : events) found.push_back(transmittance_in_double(defaults(kind), events, event.w));
+    for (const WarpedFragment& fragment : projected)
+        found.push_back(transmittance_in_double(defaults(kind), projected, fragment.w));
     return found;
 }
 
 void expect_near(const std::vector<double>& got, std::initializer_list<double> wanted, double tolerance, std::uint32_t kind) {
     ASSERT_EQ(got.size(), wanted.size());
     for (std::size_t i = 0; i < got.size(); ++i)
-        EXPECT_NEAR(got[i], wanted.begin()[i], tolerance) << "kind " << kind << " event " << i;
+        EXPECT_NEAR(got[i], wanted.begin()[i], tolerance) << "kind " << kind << " fragment " << i;
 }
 
 double tolerance_of(std::uint32_t kind) { return kind == moments_power8 ? 5e-4 : 1e-4; }
 
-TEST(Moments, HideAQuarterOfASingleEventFromItself) {
+TEST(Moments, HideAQuarterOfASingleFragmentFromItself) {
     for (const std::uint32_t kind : all_kinds)
         for (const double w : {-.9, -.3, .001, .5, .99}) expect_near(through(kind, {w}), {.840896}, tolerance_of(kind), kind);
 }
 
-TEST(Moments, AreExactForAsManyEventsAsThereAreRootsAndOneMoreOnTheEvents) {
+TEST(Moments, AreExactForAsManyFragmentsAsThereAreRootsAndOneMoreOnTheFragments) {
     for (const std::uint32_t kind : all_kinds) {
         expect_near(through(kind, {-.4, .3}), {.840896, .420448}, tolerance_of(kind), kind);
         expect_near(through(kind, {-.6, -.1, .5}), {.840896, .420448, .210224}, tolerance_of(kind), kind);
     }
 }
 
-TEST(Moments, BendTheCurveOfMoreEvents) {
+TEST(Moments, BendTheCurveOfMoreFragments) {
     expect_near(through(moments_power4, {-.6, -.2, .2, .6}), {.833262, .466225, .251738, .108028}, 1e-4, moments_power4);
     for (const std::uint32_t kind : {moments_power6, moments_power8})
         expect_near(through(kind, {-.6, -.2, .2, .6}), {.8409, .4205, .2102, .1051}, 5e-4, kind);
@@ -94,10 +96,10 @@ TEST(Moments, FitInto16BitsAndComeBack) {
 
 TEST(Moments, WithoutOverestimationOrWithCompensationLetSmokeInFrontOfACardAlone) {
     // Smoke of alpha .1, white, in front of a black card that is as opaque as moments can be: exactly .1 is seen.
-    const std::vector<WarpedEvent> events{{-.2, -std::log(.9)}, {.3, 10}};
+    const std::vector<WarpedFragment> projected{{-.2, -std::log(.9)}, {.3, 10}};
     const auto seen = [&](MomentsParams params) {
-        const double smoke = transmittance_in_double(params, events, -.2, events[0].optical_depth);
-        const double card = transmittance_in_double(params, events, .3, events[1].optical_depth);
+        const double smoke = transmittance_in_double(params, projected, -.2, projected[0].optical_depth);
+        const double card = transmittance_in_double(params, projected, .3, projected[1].optical_depth);
         return .1 * smoke / (.1 * smoke + card * (1 - std::exp(-10.)));
     };
     MomentsParams params = defaults(moments_power4);
@@ -115,9 +117,9 @@ TEST(Moments, WithoutOverestimationOrWithCompensationLetSmokeInFrontOfACardAlone
 
 /// Share of what is seen of three opaque cards that is not the first one's (hard case H1).
 double leak(std::uint32_t kind, std::uint32_t storage, double spacing) {
-    const std::vector<WarpedEvent> cards{{-spacing, 10}, {0, 10}, {spacing, 10}};
+    const std::vector<WarpedFragment> cards{{-spacing, 10}, {0, 10}, {spacing, 10}};
     double sum = 0, first = 0;
-    for (const WarpedEvent& card : cards) {
+    for (const WarpedFragment& card : cards) {
         const double through = transmittance_in_double(defaults(kind, storage), cards, card.w);
         first = sum == 0 ? through : first;
         sum += through;

@@ -1,7 +1,7 @@
 // Adds a fragment's optical depth and its moments to the texel (Muenstermann et al. 2018).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/transparency/event.glsl"
+#include "passes/transparency/fragment.glsl"
 #include "passes/transparency/moments/moments.shared.h"
 
 layout(push_constant, scalar) uniform Push { MomentsPush push; };
@@ -14,11 +14,11 @@ layout(location = 1) out vec4 out_head;
 layout(location = 2) out vec4 out_tail;
 
 void main() {
-    const Event event = transparent_event();
-    const float tau = moment_depth(event.t, channel);
-    if (!event.visible || tau <= 0.0) discard;
+    const Fragment fragment = transparent_fragment();
+    const float tau = moment_depth(fragment.t, channel);
+    if (!fragment.visible || tau <= 0.0) discard;
     float moments[8];
-    fill_moments(warped(event.z), moments);
+    fill_moments(warped(fragment.z), moments);
     out_total = vec4(tau, 0.0, 0.0, 0.0);
     out_head = tau * vec4(moments[0], moments[1], moments[2], moments[3]);
     out_tail = tau * vec4(moments[4], moments[5], moments[6], moments[7]);

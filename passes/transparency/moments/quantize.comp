@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "passes/transparency/lists/event_lists.shared.h"
+#include "passes/transparency/lists/pixel_lists.shared.h"
 #include "passes/transparency/moments/moments.shared.h"
 
 layout(push_constant, scalar) uniform Push {
@@ -11,8 +11,8 @@ layout(push_constant, scalar) uniform Push {
     MomentsPush push;
 };
 #include "passes/shaders/finished.glsl"
-#include "passes/transparency/lists/events.glsl"
-#include "passes/transparency/lists/per_turn.glsl"
+#include "passes/transparency/lists/fragments.glsl"
+#include "passes/transparency/lists/per_iteration.glsl"
 #include "passes/transparency/moments/quantization.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -27,7 +27,7 @@ void round_to_16_bits(inout float moments[8]) {
 }
 
 void add(ListKey key, uint channel, inout float sum, inout float kept[8]) {
-    const float tau = moment_depth(events[key.event].t, channel);
+    const float tau = moment_depth(fragments[key.fragment].t, channel);
     if (tau <= 0.0) return;
     float moments[8], before[8] = kept;
     fill_moments(warped(key.z), moments);
@@ -43,8 +43,8 @@ void add(ListKey key, uint channel, inout float sum, inout float kept[8]) {
 float build(uint start, uint count, uint channel, out float kept[8]) {
     float sum = 0.0;
     for (uint i = 0u; i < 8u; ++i) kept[i] = 0.0;
-    for (uint i = 0u; i < count; i += per_turn)
-        [[unroll]] for (uint k = 0u; k < per_turn; ++k)
+    for (uint i = 0u; i < count; i += per_iteration)
+        [[unroll]] for (uint k = 0u; k < per_iteration; ++k)
             if (i + k < count) add(keys[start + i + k], channel, sum, kept);
     return sum;
 }

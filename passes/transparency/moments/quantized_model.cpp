@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "passes/transparency/moments/model.h"
+#include "passes/transparency/moments/moments.shared.h"
 
 namespace strata::transparency {
 namespace {

@@ -11,8 +11,8 @@ layout(push_constant, scalar) uniform Push {
     uint bucket;
 };
 #include "passes/shaders/finished.glsl"
-#include "passes/transparency/lists/events.glsl"
-#include "passes/transparency/lists/per_turn.glsl"
+#include "passes/transparency/lists/fragments.glsl"
+#include "passes/transparency/lists/per_iteration.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint layers = 4u;
@@ -51,8 +51,8 @@ void merge_last_two() {
 
 void add(ListKey key) {
     if (buckets > 1u && bucket_of(key.z) != bucket) return;
-    const ListEvent event = events[key.event];
-    insert(Node(key.z, event.p + event.e, event.t));
+    const ListFragment fragment = fragments[key.fragment];
+    insert(Node(key.z, fragment.p + fragment.e, fragment.t));
     if (used > layers) merge_last_two();
 }
 
@@ -64,8 +64,8 @@ void main() {
     if (count == 0u) return;
 
     vec3 sum = vec3(0.0), through = vec3(1.0);
-    for (uint i = 0u; i < count; i += per_turn)
-        [[unroll]] for (uint k = 0u; k < per_turn; ++k)
+    for (uint i = 0u; i < count; i += per_iteration)
+        [[unroll]] for (uint k = 0u; k < per_iteration; ++k)
             if (i + k < count) add(keys[start + i + k]);
     [[unroll]] for (uint i = 0u; i < layers; ++i) {
         if (i < used) {

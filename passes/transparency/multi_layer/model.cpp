@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "passes/reference/ordering.h"
+#include "passes/stage_input.h"
 #include "passes/transparency/distortion/model.h"
 #include "passes/transparency/low_resolution/prepass.h"
+#include "passes/transparency/multi_layer/multi_layer_params.h"
 #include "passes/transparency/sample_blend.h"
 
 namespace strata::transparency {

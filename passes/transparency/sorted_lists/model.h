@@ -3,8 +3,15 @@
 
 #include <span>
 
+#include "passes/image_set.h"
 #include "passes/reference/fragments.h"
-#include "passes/technique.h"
+
+namespace strata {
+
+class Settings;     // passes/settings.h
+struct StageInput;  // passes/stage_input.h
+
+}  // namespace strata
 
 namespace strata::transparency {
 

@@ -4,13 +4,13 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "passes/transparency/distortion/bent_background.glsl"
-#include "passes/transparency/lists/event_lists.shared.h"
+#include "passes/transparency/lists/pixel_lists.shared.h"
 #include "passes/shaders/luminance.glsl"
 
 layout(push_constant, scalar) uniform Push { Band band; };
 #include "passes/shaders/finished.glsl"
-#include "passes/transparency/lists/events.glsl"
-#include "passes/transparency/lists/per_turn.glsl"
+#include "passes/transparency/lists/fragments.glsl"
+#include "passes/transparency/lists/per_iteration.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint distorts = 0u;  // 1: there are offsets and the background to read
@@ -23,9 +23,9 @@ vec3 sum = vec3(0.0), through = vec3(1.0);
 vec2 offset = vec2(0.0);
 
 void add_behind(uint node) {
-    sum += through * (events[node].p + events[node].e);
+    sum += through * (fragments[node].p + fragments[node].e);
     if (distorts != 0u) offset += luminance(through) * offsets[node];
-    through *= events[node].t;
+    through *= fragments[node].t;
 }
 
 void main() {
@@ -35,9 +35,9 @@ void main() {
     const uint cell = cell_of(texel.xy, at.z);
     const uint start = starts[cell], count = list_count(cell);
     if (count == 0u) return;
-    for (uint i = 0u; i < count; i += per_turn)
-        [[unroll]] for (uint k = 0u; k < per_turn; ++k)
-            if (i + k < count) add_behind(keys[start + i + k].event);
+    for (uint i = 0u; i < count; i += per_iteration)
+        [[unroll]] for (uint k = 0u; k < per_iteration; ++k)
+            if (i + k < count) add_behind(keys[start + i + k].fragment);
     if (!finished(band.width)) atomicAdd(counters.unfinished, 1u);
     const vec4 here = imageLoad(color, texel);
     const vec3 seen = distorts != 0u ? seen_behind(behind, texel, offset) : here.rgb;

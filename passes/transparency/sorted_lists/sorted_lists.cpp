@@ -1,8 +1,10 @@
 // Every fragment in a list of its sample, sorted, composited: the reference on the device. Exact but for float.
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "passes/transparency/distortion/bent_background.h"
-#include "passes/transparency/lists/event_lists.h"
-#include "passes/transparency/sorted_lists/sorted_lists.shared.h"
+#include "passes/transparency/lists/pixel_lists.h"
 
 namespace strata::transparency {
 
@@ -10,9 +12,13 @@ ImageSet sorted_lists_model(const StageInput&, const Settings&);  // model.cpp
 
 namespace {
 
+struct SortedListsParams {
+    float pool;  ///< million fragments kept at a time
+};
+
 void declare(Graph& graph, FrameImages& images, const Settings& settings) {
     const Image behind = undistorted(graph, images);
-    EventLists lists = create_lists(graph, images, settings.as<SortedListsParams>().pool);
+    PixelLists lists = create_lists(graph, images, settings.as<SortedListsParams>().pool);
     for (const Band& band : lists.bands) {
         make_lists(graph, images, lists, band, list_order_depth);
         read_lists(graph.compute("transparency/sorted_lists/resolve.comp"), lists, band)
@@ -20,7 +26,7 @@ void declare(Graph& graph, FrameImages& images, const Settings& settings) {
             .loads("Offsets", lists.offsets)
             .samples("behind", behind)
             .fixes("distorts", behind ? 1u : 0u)
-            .fixes("per_turn", fragments_per_turn(lists))
+            .fixes("per_iteration", fragments_per_iteration(lists))
             .over(over(band));
     }
 }
@@ -31,6 +37,7 @@ Technique sorted_lists() {
     return {
         .stage = Stage::transparency,
         .name = "transparency/sorted_lists",
+        .aliases = {"ppll"},
         .title = "Sorted lists",
         .source = "Yang, Hensley, Gruen and Thibieroz 2010, EGSR; Carpenter 1984 (A-buffer)",
         .summary =

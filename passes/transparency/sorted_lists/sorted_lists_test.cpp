@@ -11,8 +11,10 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/gtc/constants.hpp>
 
+#include "capture_format/frame.h"
 #include "captures/cards.h"
 #include "passes/scene/fragment_bounds.h"
+#include "passes/stage_input.h"
 #include "passes/transparency/truth.h"
 #include "tests/support/layers.h"
 

@@ -9,12 +9,12 @@ layout(set = 0, binding = 1, scalar) buffer Depths { uint depths[]; };
 layout(set = 0, binding = 2, scalar) buffer Counters { StochasticCounters counters; };
 
 void main() {
-    const Event event = transparent_event();
+    const Fragment fragment = transparent_fragment();
     const uvec2 pixel = uvec2(gl_FragCoord.xy);
-    if (coverage_of(event) == 0.0 || !in_band(pixel.y)) discard;
-    out_reveal = vec4(event.t, 1.0);
-    const uint first = first_subsample(pixel), depth = depth_bits(event);
-    Subset subset = subset_of(event, pixel);
+    if (coverage_of(fragment) == 0.0 || !in_band(pixel.y)) discard;
+    out_reveal = vec4(fragment.t, 1.0);
+    const uint first = first_subsample(pixel), depth = depth_bits(fragment);
+    Subset subset = subset_of(fragment, pixel);
     uint covered = 0u;
     for (uint s = 0u; s < band.subsamples; ++s) {
         if (!covers(subset, s)) continue;

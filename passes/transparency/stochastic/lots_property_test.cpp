@@ -134,7 +134,7 @@ TEST(StochasticLots, OfManyLayersLetThroughTheProductOfWhatEachLetsThrough) {
 }
 
 TEST(StochasticLots, OfHashedAlphaPassWithProbabilityAlphaBetweenOctaves) {
-    // A point a metre from the next is in cells of its own: cells are an eighth of a metre and smaller.
+    // A point a meter from the next is in cells of its own: cells are an eighth of a meter and smaller.
     const auto point = [](std::uint32_t i) { return glm::dvec3(i % 50, i / 50 % 20, i / 1000) + .3; };
     for (const double octave : {3., 3.1, 3.5, 3.9})
         for (const double alpha : {.02, .25, .5, .9}) {

@@ -6,8 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "capture_format/frame/frame.h"
 #include "passes/reference/shade.h"
 #include "passes/reference/triangles.h"
+#include "passes/settings.h"
+#include "passes/stage_input.h"
 #include "passes/transparency/distortion/model.h"
 #include "passes/transparency/rounding.h"
 #include "passes/transparency/sample_blend.h"
@@ -56,7 +59,7 @@ struct CoveredSubset {
 };
 
 CoveredSubset covered_by(const SeededFragment& fragment, const StochasticParams& params) {
-    const double alpha = lot_coverage(fragment.event);
+    const double alpha = lot_coverage(fragment.fragment);
     if (alpha == 0) return {};
     if (params.mode == mode_hashed)
         return {alpha >= fragment.threshold.most,
@@ -120,25 +123,25 @@ BlendedSample stochastic_blend(std::span<const SeededFragment> fragments, glm::d
     for (const SeededFragment& fragment : fragments) {
         covered.push_back(covered_by(fragment, params));
         result.undecided |= covered.back().undecided;
-        if (lot_coverage(fragment.event) > 0)
-            for (int c = 0; c < 3; ++c) reveal[c] = in_half(reveal[c] * fragment.event.transmittance[c], half);
+        if (lot_coverage(fragment.fragment) > 0)
+            for (int c = 0; c < 3; ++c) reveal[c] = in_half(reveal[c] * fragment.fragment.transmittance[c], half);
         for (std::uint32_t s = 0; s < subsamples; ++s)
-            if (covered.back().bits >> s & 1) nearest[s] = std::min(nearest[s], std::max(fragment.event.depth, 0.));
+            if (covered.back().bits >> s & 1) nearest[s] = std::min(nearest[s], std::max(fragment.fragment.depth, 0.));
     }
 
     glm::dvec3 colors(0);
     double weights = 0;
     for (std::size_t i = 0; i < fragments.size(); ++i) {
-        const Fragment& event = fragments[i].event;
+        const Fragment& fragment = fragments[i].fragment;
         std::uint64_t shown = 0;
         for (std::uint32_t s = 0; s < subsamples; ++s)
-            if (std::max(event.depth, 0.) <= nearest[s]) shown |= std::uint64_t{1} << s;
-        const double share = std::popcount(shown) / double(subsamples), alpha = lot_coverage(event);
+            if (std::max(fragment.depth, 0.) <= nearest[s]) shown |= std::uint64_t{1} << s;
+        const double share = std::popcount(shown) / double(subsamples), alpha = lot_coverage(fragment);
         const double weight =
             params.mode == mode_depth_based ? alpha * share : std::popcount(shown & covered[i].bits) / double(subsamples);
-        if (alpha > 0) add(colors, glm::min(event.color / alpha, glm::dvec3(half_float.largest)) * weight);
+        if (alpha > 0) add(colors, glm::min(fragment.color / alpha, glm::dvec3(half_float.largest)) * weight);
         weights = in_half(weights + weight, half);
-        add(result.radiance, (event.emission + (alpha > 0 ? glm::dvec3(0) : event.color)) * share);
+        add(result.radiance, (fragment.emission + (alpha > 0 ? glm::dvec3(0) : fragment.color)) * share);
     }
     const auto seen = std::count(nearest.begin(), nearest.begin() + subsamples, uncovered);
     // Without a covered subsample there is no color to correct; hashed alpha is meant to be all or nothing.

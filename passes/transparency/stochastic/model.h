@@ -1,14 +1,21 @@
-// The method in double, from the papers. It shares the integer hash with the shaders: which subsamples a fragment covers is part
-// of the method, not a rounding of it.
+// The technique in double, from the papers. It shares the integer hash with the shaders: which subsamples a fragment covers is
+// part of the technique, not a rounding of it.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <span>
 
-#include "passes/technique.h"
+#include "passes/blend_rounding.h"
+#include "passes/image_set.h"
 #include "passes/transparency/sample_blend.h"
 #include "passes/transparency/stochastic/stochastic.shared.h"
+
+namespace strata {
+
+class Settings;  // passes/settings.h
+
+}  // namespace strata
 
 namespace strata::transparency {
 
@@ -19,7 +26,7 @@ struct ThresholdRange {
 
 /// A fragment with what its subset is made from.
 struct SeededFragment {
-    Fragment event;
+    Fragment fragment;
     std::uint32_t key = 0;  ///< subset_key()
     ThresholdRange threshold = {};
 };

@@ -14,22 +14,22 @@ layout(set = 0, binding = 2, scalar) buffer Counters { StochasticCounters counte
 const uint depth_slack = 2u;
 
 void main() {
-    const Event event = transparent_event();
+    const Fragment fragment = transparent_fragment();
     const uvec2 pixel = uvec2(gl_FragCoord.xy);
-    if (!event.visible || !in_band(pixel.y)) discard;
+    if (!fragment.visible || !in_band(pixel.y)) discard;
     atomicAdd(counters.fragments, 1u);
-    const uint first = first_subsample(pixel), depth = max(depth_bits(event), depth_slack) - depth_slack;
-    Subset subset = subset_of(event, pixel);
+    const uint first = first_subsample(pixel), depth = max(depth_bits(fragment), depth_slack) - depth_slack;
+    Subset subset = subset_of(fragment, pixel);
     uint shown = 0u, shown_of_covered = 0u;
     for (uint s = 0u; s < band.subsamples; ++s) {
         const bool is_shown = depth <= depths[first + s], is_covered = covers(subset, s);
         shown += is_shown ? 1u : 0u;
         shown_of_covered += is_shown && is_covered ? 1u : 0u;
     }
-    const float coverage = coverage_of(event), share = float(shown) / float(band.subsamples);
+    const float coverage = coverage_of(fragment), share = float(shown) / float(band.subsamples);
     const bool by_depth = band.params.mode == mode_depth_based;
     const float weight = by_depth ? coverage * share : float(shown_of_covered) / float(band.subsamples);
-    const vec3 color = min(event.p / max(coverage, least_coverage), largest_half);
+    const vec3 color = min(fragment.p / max(coverage, least_coverage), largest_half);
     out_sum = vec4(color, 1.0) * weight;
-    out_emitted = vec4(event.e + (coverage == 0.0 ? event.p : vec3(0.0)), 0.0) * share;
+    out_emitted = vec4(fragment.e + (coverage == 0.0 ? fragment.p : vec3(0.0)), 0.0) * share;
 }

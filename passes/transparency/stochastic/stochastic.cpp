@@ -2,9 +2,11 @@
 #include <algorithm>
 
 #include "passes/choice_names.h"
+#include "passes/frame_images.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "passes/transparency/distortion/bent_background.h"
-#include "passes/transparency/event_draw.h"
+#include "passes/transparency/fragment_draw.h"
 #include "passes/transparency/stochastic/stochastic.shared.h"
 
 namespace strata::transparency {
@@ -59,12 +61,12 @@ Targets create_targets(Graph& graph, const FrameImages& images, const Stochastic
 void draw(Graph& graph, const FrameImages& images, Targets& targets, const StochasticBand& band) {
     graph.clear(targets.depths, uncovered_depth);
     const Rows rows{band.first_row, band.rows};
-    draw_events(graph, "transparency/stochastic/cover", images.numbered, images)
+    draw_fragments(graph, "transparency/stochastic/cover", images.numbered, images)
         .in_rows(rows)
         .multiplies(targets.reveal)
         .updates("Depths", targets.depths)
         .push(band);
-    draw_events(graph, "transparency/stochastic/shade", images.numbered, images)
+    draw_fragments(graph, "transparency/stochastic/shade", images.numbered, images)
         .in_rows(rows)
         .adds_to(targets.sum)
         .adds_to(targets.emitted)
@@ -152,7 +154,7 @@ Technique stochastic() {
         .summary =
             "Fragments cover random subsamples, which an ordinary depth test resolves: right on average, noisy in every frame.",
         .params = params(),
-        .points = {"mode=depth_based", "samples=64", "samples=64 mode=depth_based", "mode=hashed"},
+        .variants = {"mode=depth_based", "samples=64", "samples=64 mode=depth_based", "mode=hashed"},
         .counters = {counter<&StochasticCounters::fragments>(
                          {.name = "fragments", .help = "visible transparent fragments shaded"}),
                      counter<&StochasticCounters::atomics>(

@@ -46,7 +46,7 @@ struct StochasticCounters {
 
 // Subsamples that nothing covers.
 const uint uncovered_depth = 0xffffffffu;
-// Less coverage than this is no event (docs/algorithms/transparency.md 0.2): such a fragment covers nothing, and its light is
+// Less coverage than this is no fragment (docs/algorithms/transparency.md 0.2): such a fragment covers nothing, and its light is
 // added.
 const float least_coverage = 1e-5f;
 

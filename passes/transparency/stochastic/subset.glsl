@@ -1,13 +1,13 @@
 // The subset of a sample's subsamples that a fragment covers, one subsample after the other; and where their depths lie.
 #ifndef PASSES_TRANSPARENCY_STOCHASTIC_SUBSET_GLSL
 #define PASSES_TRANSPARENCY_STOCHASTIC_SUBSET_GLSL
-#include "passes/transparency/event.glsl"
+#include "passes/transparency/fragment.glsl"
 #include "passes/transparency/stochastic/stochastic.shared.h"
 #include "passes/transparency/stochastic/subset.shared.h"
 
 layout(push_constant, scalar) uniform Push { StochasticBand band; };
 
-// To be asked although draws are restricted to the rows of the band: see DrawPass::in_rows.
+// To be asked although draws are restricted to the rows of the band: see DrawStep::in_rows.
 bool in_band(uint row) { return row >= band.first_row && row - band.first_row < band.rows; }
 
 uint first_subsample(uvec2 pixel) {
@@ -15,12 +15,12 @@ uint first_subsample(uvec2 pixel) {
 }
 
 // Bits of positive floats are ordered like the floats.
-uint depth_bits(Event event) { return floatBitsToUint(max(event.z, 0.0)); }
+uint depth_bits(Fragment fragment) { return floatBitsToUint(max(fragment.z, 0.0)); }
 
 // Colored glass covers less than its alpha (McGuire and Mara 2016).
-float coverage_of(Event event) {
-    const float coverage = dot(1.0 - event.t, vec3(1.0 / 3.0));
-    return coverage < least_coverage || !is_finite(event.z) ? 0.0 : min(coverage, 1.0);
+float coverage_of(Fragment fragment) {
+    const float coverage = dot(1.0 - fragment.t, vec3(1.0 / 3.0));
+    return coverage < least_coverage || !is_finite(fragment.z) ? 0.0 : min(coverage, 1.0);
 }
 
 float lattice_number(vec3 position, float scale) {
@@ -51,8 +51,8 @@ struct Subset {
     uint wanted;  // still, of a stratified one
 };
 
-Subset subset_of(Event event, uvec2 pixel) {
-    const float coverage = coverage_of(event);
+Subset subset_of(Fragment fragment, uvec2 pixel) {
+    const float coverage = coverage_of(fragment);
     const float alpha = band.params.mode == mode_hashed ? float(coverage > 0.0 && coverage >= hashed_threshold()) : coverage;
     const uint key = fragment_key(band.params.seed, uvec3(pixel, gl_SampleID), in_draw, in_triangle);
     const uint fixed_alpha = uint(alpha * 16777216.0);

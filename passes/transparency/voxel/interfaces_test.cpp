@@ -7,7 +7,7 @@
 #include "passes/scene/scene_facts.h"
 #include "passes/transparency/voxel/slices/depth_curve.h"
 #include "passes/transparency/voxel/slices/depth_warp_model.h"
-#include "passes/transparency/voxel/thick_events/segment_model.h"
+#include "passes/transparency/voxel/thick_fragments/segment_model.h"
 #include "passes/transparency/voxel/volume/dimensions.h"
 #include "tests/support/one_pixel.h"
 

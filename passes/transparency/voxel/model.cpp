@@ -4,16 +4,19 @@
 #include <cmath>
 #include <optional>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame_features.h"
 #include "passes/reference/ordering.h"
 #include "passes/reference/triangles.h"
 #include "passes/shaders/hash.shared.h"
+#include "passes/stage_input.h"
 #include "passes/transparency/functions/model.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/voxel/factors/model.h"
 #include "passes/transparency/voxel/slices/depth_curve.h"
 #include "passes/transparency/voxel/slices/depth_warp_model.h"
 #include "passes/transparency/voxel/sparse/sparse_model.h"
-#include "passes/transparency/voxel/thick_events/segment_model.h"
+#include "passes/transparency/voxel/thick_fragments/segment_model.h"
 #include "passes/transparency/voxel/volume/color_column.h"
 #include "passes/transparency/voxel/volume/column.h"
 #include "passes/transparency/voxel/zero_depth/zero_depth.h"
@@ -29,7 +32,7 @@ bool shares_words(const VoxelParams& params, std::uint32_t channels) {
 }
 
 /// What a column takes (docs/algorithms/transparency.md 6.4): planes of words of 32 bits with 4, 3 or 2 slices of 8, 10 or 16
-/// bits each, or one. Where three channels share words there is a word for every slice, and a plane of what is grey.
+/// bits each, or one. Where three channels share words there is a word for every slice, and a plane of what is gray.
 std::uint64_t bytes_of_column(const VoxelParams& params, std::uint32_t channels) {
     static constexpr std::uint32_t slices_of_a_word[] = {4, 3, 2, 1};
     const std::uint32_t together = params.splat == splat_words ? 1 : slices_of_a_word[params.bits];
@@ -205,8 +208,8 @@ struct Splatter {
         return segment_at(slices.curve_of_virtual(), f.depth, thickness_of(params, f), params.splatting);
     }
 
-    /// Thick events are grey.
-    double grey_codes(const Fragment& f, std::size_t channel) const {
+    /// Thick fragments are gray.
+    double gray_codes(const Fragment& f, std::size_t channel) const {
         return column_format(params).codes(channel_depth(f, channel, channels));
     }
 
@@ -214,22 +217,22 @@ struct Splatter {
         const std::optional<Segment> segment = segment_of(f);
         if (!segment) return column.add(split(column.format(), f, texel, channel));
         std::uint32_t slice = slices.splatted(segment->first);
-        for (const std::uint32_t code : segment->codes_of_slices(grey_codes(f, channel), rounding_of(params, origins, f, texel)))
+        for (const std::uint32_t code : segment->codes_of_slices(gray_codes(f, channel), rounding_of(params, origins, f, texel)))
             column.add(slice++, code);
     }
 
-    /// What is in front of an event, of a channel's integral.
+    /// What is in front of a fragment, of a channel's integral.
     double codes_before(const Fragment& f, glm::uvec2 texel, std::size_t channel, const SumsOfSlices& integral) const {
         if (f.layer > 0) return slices.before(integral, f.layer);
         const std::optional<Segment> segment = segment_of(f);
-        const ColumnFormat grey = column_format(params), format = packs ? color_format(params) : grey;
-        const double codes = grey_codes(f, channel), rounding = rounding_of(params, origins, f, texel);
+        const ColumnFormat gray = column_format(params), format = packs ? color_format(params) : gray;
+        const double codes = gray_codes(f, channel), rounding = rounding_of(params, origins, f, texel);
         const auto value = [&](int slice) {
             const double sum = slices.up_to(integral, slice);
             if (!segment) return sum;
             const std::uint32_t own =
                 segment->code_behind(segment->first, codes, rounding) - segment->code_behind(slice + 1, codes, rounding);
-            return without_own(format, sum, own * format.codes_per_depth() / grey.codes_per_depth());
+            return without_own(format, sum, own * format.codes_per_depth() / gray.codes_per_depth());
         };
         const double at = slices.place_of(f.depth) + sampling_bias(params.sampling) + double(params.shift);
         return sampled_integral(value, at, params.sampling);
@@ -254,13 +257,13 @@ struct Splatter {
         return all;
     }
 
-    /// The same, of what is grey and of words of three channels.
+    /// The same, of what is gray and of words of three channels.
     std::vector<double> packed(std::span<const Fragment> fragments, glm::uvec2 texel) const {
-        Column grey(column_format(params));
+        Column gray(column_format(params));
         ColorColumn colors(color_format(params));
         for (const Fragment& f : fragments) {
-            if (source_of(*frame, origin_of(origins, f).draw) == source_grey) {
-                add(grey, f, texel, 0);
+            if (source_of(*frame, origin_of(origins, f).draw) == source_gray) {
+                add(gray, f, texel, 0);
                 continue;
             }
             glm::uvec3 nearer, farther;
@@ -273,7 +276,7 @@ struct Splatter {
             if (farther != glm::uvec3(0)) colors.add(code.slice + 1, farther);
         }
         std::vector<double> all;
-        const std::vector<glm::uvec3> integral = colors.integral(grey);
+        const std::vector<glm::uvec3> integral = colors.integral(gray);
         for (int c = 0; c < 3; ++c)
             for (const glm::uvec3& sums : integral) all.push_back(sums[c]);
         return all;

@@ -1,8 +1,15 @@
-// The method on whole images: columns of a prepass (volume/column.h), filtered and read by every fragment.
+// The technique on whole images: columns of a prepass (volume/column.h), filtered and read by every fragment.
 #pragma once
 
-#include "passes/technique.h"
+#include "passes/image_set.h"
 #include "passes/transparency/voxel/voxel.shared.h"
+
+namespace strata {
+
+class Settings;     // passes/settings.h
+struct StageInput;  // passes/stage_input.h
+
+}  // namespace strata
 
 namespace strata::transparency {
 

@@ -2,8 +2,8 @@
 
 namespace strata::transparency {
 
-// The talk's figures: its tables of splats, of skipping, of what RGB costs, and of methods. Its splats of 17 million pixels at
-// 1080p are eight layers, as the scenario particle_storm has; its methods are compared at an eighth of the extent.
+// The talk's figures: its tables of splats, of skipping, of what RGB costs, and of techniques. Its splats of 17 million pixels at
+// 1080p are eight layers, as the scenario particle_storm has; its techniques are compared at an eighth of the extent.
 std::vector<TimeRatio> voxel_ratios() {
     using Names = std::vector<std::string_view>;
     const Names splat = {"/splat"}, clear = {"/clear"}, integrate = {"/integrate"}, volume = {"/clear", "/integrate"},
@@ -22,7 +22,7 @@ std::vector<TimeRatio> voxel_ratios() {
          ".81 / .75 ms, mono; the slide shows the numbers of its formats once more", "particle_storm", added},
         {"splat: RGB, against mono", "channels=rgb", "channels=mono", splat, .95 / .81,
          ".95 / .81 ms, linear; the slide shows the numbers of its formats once more", "particle_storm", added},
-        {"splat: words of three channels and bytes of what is grey, against bytes alone", "packing=rgb10", "channels=mono", splat,
+        {"splat: words of three channels and bytes of what is gray, against bytes alone", "packing=rgb10", "channels=mono", splat,
          .95 / .91, ".95 / .91 ms, 10:10:10 and U8, both noting overflows", "glass_and_smoke", added},
         {"splat: three channels at once, against one by one", "packing=rgb10", "packing=planes", splat, std::nullopt, "",
          "glass_and_smoke", added},

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "passes/technique.h"
+#include "passes/claims.h"
 
 namespace strata::transparency {
 

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame/frame.h"
 #include "passes/transparency/functions/model.h"
 #include "passes/transparency/sample_blend.h"
 #include "passes/transparency/truth.h"
@@ -64,7 +65,7 @@ TEST(Tint, LeavesTheBackgroundExact) {
         }
 }
 
-TEST(Tint, IsExactOnGreySmokeBehindGlass) {
+TEST(Tint, IsExactOnGraySmokeBehindGlass) {
     const std::array fragments{glass(1, green, .1), layer(2, .5, .8)};
     const glm::dvec3 wanted = exact_blend(fragments, glm::dvec3(.3));
     EXPECT_LT(largest_difference(tinted(fragments, .3, tint_corrected), wanted), 1e-12);
@@ -84,7 +85,7 @@ TEST(Tint, RestoresASingleLayerInAnyFogAndOfAnyColor) {
     EXPECT_NEAR(seen.x, seen.y, 1e-12);
 }
 
-TEST(Tint, IsNothingToWhatIsGrey) {
+TEST(Tint, IsNothingToWhatIsGray) {
     const std::array smoke{layer(1, .3, .7), layer(7, .5, .2), layer(20, .2, .9)};
     for (const std::uint32_t tint : {tint_skew, tint_corrected})
         EXPECT_LT(largest_difference(tinted(smoke, .4, tint), tinted(smoke, .4, tint_total)), 1e-12);

@@ -3,8 +3,9 @@
 #include <cmath>
 
 #include "passes/choice_names.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
-#include "passes/transparency/event_draw.h"
+#include "passes/transparency/fragment_draw.h"
 #include "passes/transparency/functions/draw.h"
 #include "passes/transparency/functions/motion.h"
 #include "passes/transparency/low_resolution/prepass.h"
@@ -13,6 +14,7 @@
 #include "passes/transparency/voxel/volume/dimensions.h"
 #include "passes/transparency/voxel/volume/volume.h"
 #include "passes/transparency/voxel/voxel.shared.h"
+#include "passes/transparency/voxel/voxel_params.h"
 #include "passes/transparency/voxel/zero_depth/zero_depth.h"
 
 namespace strata::transparency {
@@ -51,7 +53,7 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, O
     FunctionSums drawn = create_sums(graph, images, {params.accumulation, voxel_tint(params, *images.features), offsets});
     drawn.low_images.transparent = drawn_before.transparent;
     draw_into(graph, "transparency/voxel/accumulate", drawn_before, drawn,
-              [&](DrawPass& draw, Resolution resolution) { read_volume(draw, volume, params, resolution); });
+              [&](DrawStep& draw, Resolution resolution) { read_volume(draw, volume, params, resolution); });
     return drawn;
 }
 
@@ -62,12 +64,14 @@ void prepare(Graph& graph, FrameImages& images, const Settings& settings) {
     images.depth = depth_to_draw_opaque_into(graph, images, integrated_volume(graph, images, params), params);
 }
 
-std::optional<std::string> beyond_device(const FrameImages& images, const Settings& settings) {
+std::optional<Error> beyond_device(const FrameImages& images, const Settings& settings) {
     const Capabilities& device = images.capabilities;
     if (voxel_params(settings, *images.facts).splat != splat_multiply || has(device, Capability::shader_output_layer) ||
         has(device, Capability::geometry_shaders))
         return std::nullopt;
-    return "transparency/voxel needs shader_output_layer or geometry_shaders for splat=multiply; this device has neither";
+    return fail(Fault::device_lacks, "device.lacks_feature",
+                "{technique} needs {feature} for {setting}, which this device does not have", "transparency/voxel",
+                "shader_output_layer or geometry_shaders", "splat=multiply");
 }
 
 std::vector<Param> code_params() {
@@ -376,38 +380,39 @@ Technique voxel() {
     return {
         .stage = Stage::transparency,
         .name = "transparency/voxel",
+        .aliases = {"avboit", "vboit"},
         .title = "Voxel-based",
         .source = "Drobot, Adaptive Voxel-Based Order-Independent Transparency, SIGGRAPH Advances in Real-Time Rendering",
         .summary =
             "Adds optical depth to slices of a low-resolution volume with integer atomics: order independent to the bit. "
             "Fragments within a slice do not hide each other; layers too thin for 8 bits are lost.",
         .params = params(),
-        .points = {"slices=64",
-                   "slices=256",
-                   "slices=512",
-                   "volume=dense",
-                   "volume=dense range=fixed",
-                   "volume=sparse",
-                   "volume=sparse resolution=half",
-                   "splat=saturating",
-                   "splat=words bits=32",
-                   "splat=multiply",
-                   "splatting=point sampling=point",
-                   "sampling=bicubic",
-                   "bits=10",
-                   "bits=16",
-                   "bits=16 slices=512",
-                   "packing=rgb10",
-                   "packing=rgb10 bits=16",
-                   "channels=mono tint=skew",
-                   "channels=mono tint=corrected",
-                   "curve=thickness",
-                   "rounding=stochastic",
-                   "thickness=segment",
-                   "resolution=half",
-                   "resolution=quarter",
-                   "resolution=eighth",
-                   "resolution=sixteenth"},
+        .variants = {"slices=64",
+                     "slices=256",
+                     "slices=512",
+                     "volume=dense",
+                     "volume=dense range=fixed",
+                     "volume=sparse",
+                     "volume=sparse resolution=half",
+                     "splat=saturating",
+                     "splat=words bits=32",
+                     "splat=multiply",
+                     "splatting=point sampling=point",
+                     "sampling=bicubic",
+                     "bits=10",
+                     "bits=16",
+                     "bits=16 slices=512",
+                     "packing=rgb10",
+                     "packing=rgb10 bits=16",
+                     "channels=mono tint=skew",
+                     "channels=mono tint=corrected",
+                     "curve=thickness",
+                     "rounding=stochastic",
+                     "thickness=segment",
+                     "resolution=half",
+                     "resolution=quarter",
+                     "resolution=eighth",
+                     "resolution=sixteenth"},
         .counters = counters(),
         .counter_bytes = sizeof(VoxelCounters),
         .views = views(),

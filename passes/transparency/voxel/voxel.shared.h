@@ -19,7 +19,7 @@ const uint bits_10 = 1u;
 const uint bits_16 = 2u;
 const uint bits_32 = 3u;
 
-// Of three channels: a volume each; or all of a slice in one word, of what has a color, and a volume for what is grey.
+// Of three channels: a volume each; or all of a slice in one word, of what has a color, and a volume for what is gray.
 const uint packing_planes = 0u;
 const uint packing_rgb10 = 1u;
 
@@ -30,7 +30,7 @@ const uint sampling_point = 0u;
 const uint sampling_linear = 1u;
 const uint sampling_bicubic = 2u;
 
-// An event is at its depth; or lies evenly around it, as deep as its emitter fades before opaque surfaces.
+// A fragment is at its depth; or lies evenly around it, as deep as its emitter fades before opaque surfaces.
 const uint thickness_point = 0u;
 const uint thickness_segment = 1u;
 
@@ -60,40 +60,11 @@ const uint culling_full_screen = 3u;
 const uint prepared_after_opaque = 0u;
 const uint prepared_before_opaque = 1u;
 
-struct VoxelParams {
-    uint slices;  // there is memory for
-    uint volume;
-    float thinnest;  // metres, of the nearest slice; what is adaptive or sparse is not cut finer
-    uint pool;       // MiB of blocks, with volume_sparse
-    uint skipping;   // 1: clearing and integration leave empty tiles out
-    uint splat;
-    uint bits;
-    uint packing;
-    uint splatting;
-    uint sampling;
-    float shift;  // in slices, added to the sampling's bias
-    uint rounding;
-    uint curve;
-    float near_thickness;  // metres, of the nearest slice with curve_thickness
-    float linear;          // metres, with curve_linear
-    uint range;
-    float farthest;  // metres, of the last slice's end with range_fixed
-    uint channels;
-    uint resolution;
-    uint accumulation;
-    uint culling;
-    uint prepared;
-    uint hysteresis;   // frames for which a coarser adaptive volume is held
-    uint shown_slice;  // of views, physical
-    uint tint;
-    uint thickness;
-};
-
 // Push constants of the steps. Slices that are adaptive have two numbers: among those that cut all of the range ("virtual"), and
 // among those that are there ("physical"). Where nothing is adaptive they are the same.
 struct VoxelPush {
-    float nearest;          // metres: where the first slice begins
-    float per_linear;       // 1 / a, per metre: depth is divided evenly up to a behind that, logarithmically beyond
+    float nearest;          // meters: where the first slice begins
+    float per_linear;       // 1 / a, per meter: depth is divided evenly up to a behind that, logarithmically beyond
     float slices_per_log2;  // n / log2(1 + range / a), of the finest virtual slices
     uint finest_slices;     // n: a power of two where slices are adaptive, at most most_virtual_slices
     uint slices;            // physical, those of interface layers among them
@@ -127,7 +98,7 @@ const uint warp_end = 1u << 18u;
 
 // What slices/warp.comp leaves to the next frame.
 struct VoxelHistory {
-    float thickness;    // metres, of the nearest slice; 0: there was no frame
+    float thickness;    // meters, of the nearest slice; 0: there was no frame
     uint finer_frames;  // in a row, that would have fitted into thinner ones
 };
 
@@ -170,15 +141,15 @@ const float steepest = 1000.0f;
 const uint color_bits = 10u;
 const uint color_full_code = 255u;
 const uint color_scale_one = 1u << 22u;
-// Sources that tiles tell apart where colors are packed, and planes of notes of overflow: that of grey, then one for each
+// Sources that tiles tell apart where colors are packed, and planes of notes of overflow: that of gray, then one for each
 // channel.
-const uint source_grey = 0u;
+const uint source_gray = 0u;
 const uint source_color = 1u;
 // Of columns in which no slice overflowed, or none is full.
 const uint no_overflow = 0xffffffffu;
 // A filtered integral is full from here on, in M: weights that add up to 1 do so up to rounding.
 const float full_share = 0.99999f;
-// An event at or beyond the end is so far in front of it: in the last slice, and not behind it.
+// A fragment at or beyond the end is so far in front of it: in the last slice, and not behind it.
 const float end_margin = 0.001f;
 
 #ifdef __cplusplus

@@ -21,13 +21,13 @@ namespace strata::transparency {
 namespace {
 
 // The talk's unit is the inch.
-constexpr double far_end = 32000, first_150_metres = 5905.512;
+constexpr double far_end = 32000, first_150_meters = 5905.512;
 
 TEST(VoxelDepthCurve, HasTheSlicesOfTheChapter) {
     const DepthCurve curve{.slices = 128, .linear = 128, .farthest = far_end};
     EXPECT_NEAR(curve.slice_of(100), 13.3738, 5e-5);
     EXPECT_NEAR(curve.slice_of(1000), 50.4121, 5e-5);
-    EXPECT_NEAR(curve.slice_of(first_150_metres), 89.2580, 5e-5);
+    EXPECT_NEAR(curve.slice_of(first_150_meters), 89.2580, 5e-5);
     EXPECT_NEAR(curve.depth_of(64), 1899.901378, 1e-6);
     EXPECT_NEAR(std::log2(1 + far_end / curve.linear), 7.971544, 5e-7);
     for (double s = 0; s <= 128; s += .37) EXPECT_NEAR(curve.slice_of(curve.depth_of(s)), s, 1e-12);
@@ -63,7 +63,7 @@ TEST(VoxelDepthCurve, KeepsTheNearestSliceAsThickAsAsked) {
     EXPECT_NEAR(linear_of_thickness(128, 100, 1), 1000, 1e-6);
 }
 
-TEST(VoxelDepthCurve, TakesTheTalksInchesInMetres) {
+TEST(VoxelDepthCurve, TakesTheTalksInchesInMeters) {
     constexpr DepthRange from_the_eye{0, 800};
     const VoxelParams params{.slices = 128, .curve = curve_slices, .near_thickness = .0508f, .farthest = 800};
     EXPECT_NEAR(depth_curve(params, from_the_eye).linear, 3.2512, 1e-12);
@@ -81,7 +81,7 @@ ColumnFormat format_of(std::uint32_t splat, std::uint32_t bits = bits_8, std::ui
 
 double depth_of_alpha(double alpha) { return alpha < 1 ? -std::log1p(-alpha) : HUGE_VAL; }
 
-/// Of one event in one slice.
+/// Of one fragment in one slice.
 std::uint32_t code_of(double alpha, std::uint32_t bits = bits_8, double rounding = .5) {
     const ColumnFormat format = format_of(splat_overflow_minimum, bits);
     return split_code(format, {}, format.codes(depth_of_alpha(alpha)), rounding).nearer;
@@ -218,7 +218,7 @@ TEST(VoxelColumn, HoldsThreeSlicesOfTenBitsInAWord) {
     EXPECT_EQ(column.integral(), (std::vector<std::uint32_t>{0, 0, 1023, 1023, 1023, 1023, 1023, 1023}));
 }
 
-/// Inclusive sums of one event of 1 at s, not rounded.
+/// Inclusive sums of one fragment of 1 at s, not rounded.
 std::vector<double> step_at(double s, std::uint32_t splatting, std::uint32_t slices = 16) {
     std::vector<double> integral(slices, 0.);
     const SlicePlace place = slice_place(s, slices, splatting);
@@ -229,7 +229,7 @@ std::vector<double> step_at(double s, std::uint32_t splatting, std::uint32_t sli
 struct Span {
     double low = 1, high = 0;
 };
-/// Of an event at every phase within a slice: what is read of it `slices_behind` it.
+/// Of a fragment at every phase within a slice: what is read of it `slices_behind` it.
 Span read_behind(double slices_behind, std::uint32_t splatting, std::uint32_t sampling, double bias) {
     Span span;
     constexpr int phases = 4000;
@@ -241,7 +241,7 @@ Span read_behind(double slices_behind, std::uint32_t splatting, std::uint32_t sa
     return span;
 }
 
-TEST(VoxelSampling, HidesAnEventFromItselfByAsMuchAsTheTableSays) {
+TEST(VoxelSampling, HidesAEventFromItselfByAsMuchAsTheTableSays) {
     constexpr double biases[] = {-1, -1.5, -2, -2.5, -3};
     constexpr double linear[] = {.25, .0625, 0, 0, 0}, bicubic[] = {.261, .0888, .0176, .0011, 0};
     for (std::size_t i = 0; i < std::size(biases); ++i) {

@@ -1,7 +1,7 @@
 // T(z) from the coefficients of the texel under the fragment: the values of two cells, mixed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/transparency/event.glsl"
+#include "passes/transparency/fragment.glsl"
 #include "passes/transparency/functions/outputs.glsl"
 #include "passes/transparency/wavelet/wavelet.shared.h"
 
@@ -65,14 +65,14 @@ float transmittance(uint channel, uvec2 texel, float s, float own_depth) {
 }
 
 void main() {
-    const Event event = transparent_event();
-    if (!event.visible) discard;
+    const Fragment fragment = transparent_fragment();
+    if (!fragment.visible) discard;
     const uvec2 texel = texel_under(uvec2(push.width, push.height));
-    const float s = cell_of_depth(event.z, texel);
+    const float s = cell_of_depth(fragment.z, texel);
     vec3 through = vec3(0.0);
     for (uint channel = 0u; channel < push.channels; ++channel)
-        through[channel] = transmittance(channel, texel, s, wavelet_depth(event.t, push.channels == 1u ? 3u : channel));
+        through[channel] = transmittance(channel, texel, s, wavelet_depth(fragment.t, push.channels == 1u ? 3u : channel));
     if (push.channels == 1u) through = through.rrr;
     atomicAdd(counters.drawn, 1u);
-    write_event(event, through);
+    write_fragment(fragment, through);
 }

@@ -1,7 +1,7 @@
 // The nearest and the farthest transparent depth of every texel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/transparency/event.glsl"
+#include "passes/transparency/fragment.glsl"
 #include "passes/transparency/wavelet/wavelet.shared.h"
 
 layout(push_constant, scalar) uniform Push { WaveletPush push; };
@@ -11,9 +11,9 @@ layout(early_fragment_tests) in;
 layout(set = 0, binding = 20, scalar) buffer Counters { FunctionCounters counters; };
 
 void main() {
-    const Event event = transparent_event();
-    if (!event.visible) discard;
-    const uint at = index_of(uvec2(gl_FragCoord.xy)), bits = floatBitsToUint(max(event.z, 1e-30));
+    const Fragment fragment = transparent_fragment();
+    if (!fragment.visible) discard;
+    const uint at = index_of(uvec2(gl_FragCoord.xy)), bits = floatBitsToUint(max(fragment.z, 1e-30));
     atomicMin(bits_of_bounds[at].x, bits);
     atomicMin(bits_of_bounds[at].y, ~bits);
     atomicAdd(counters.lists.atomics, 2u);

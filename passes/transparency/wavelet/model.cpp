@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame_features.h"
 #include "passes/reference/ordering.h"
+#include "passes/stage_input.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/rounding.h"
+#include "passes/transparency/wavelet/wavelet_params.h"
 
 namespace strata::transparency {
 namespace {
@@ -40,19 +43,19 @@ Cells cells_of(const WaveletParams& params, const DepthRange& range, std::span<c
 
 }  // namespace
 
-std::vector<double> haar_coefficients(std::uint32_t rank, std::span<const CellEvent> events, std::optional<Rounding> half) {
+std::vector<double> haar_coefficients(std::uint32_t rank, std::span<const CellFragment> projected, std::optional<Rounding> half) {
     const std::size_t count = std::size_t{2} << rank;
     std::vector<double> coefficients(count, 0.);
     const auto add = [&](double& sum, double term) { sum = in_half(sum + term, half); };
-    for (const CellEvent& event : events) {
-        if (event.optical_depth <= 0) continue;
-        const double x = event.place / double(count);
+    for (const CellFragment& fragment : projected) {
+        if (fragment.optical_depth <= 0) continue;
+        const double x = fragment.place / double(count);
         for (std::uint32_t p = 0; p <= rank; ++p) {
             const double wavelets = std::ldexp(1., int(p)), k = std::floor(x * wavelets);
             const double tent = std::min(x - k / wavelets, (k + 1) / wavelets - x);
-            add(coefficients[(std::size_t{1} << p) - 1 + std::size_t(k)], event.optical_depth * std::sqrt(wavelets) * tent);
+            add(coefficients[(std::size_t{1} << p) - 1 + std::size_t(k)], fragment.optical_depth * std::sqrt(wavelets) * tent);
         }
-        add(coefficients.back(), event.optical_depth * (1 - x));
+        add(coefficients.back(), fragment.optical_depth * (1 - x));
     }
     return coefficients;
 }
@@ -72,13 +75,13 @@ double haar_depth(std::span<const double> coefficients, double place) {
     return before + (cell_value(cell) - before) * (place - double(cell));
 }
 
-double voxel_column_depth(std::uint32_t slices, std::span<const CellEvent> events, double place) {
+double voxel_column_depth(std::uint32_t slices, std::span<const CellFragment> projected, double place) {
     std::vector<double> column(slices + 1, 0.);
-    for (const CellEvent& event : events) {
-        const auto slice = std::size_t(event.place);
-        const double share = event.place - double(slice);
-        column[slice] += event.optical_depth * (1 - share);
-        column[slice + 1] += event.optical_depth * share;
+    for (const CellFragment& fragment : projected) {
+        const auto slice = std::size_t(fragment.place);
+        const double share = fragment.place - double(slice);
+        column[slice] += fragment.optical_depth * (1 - share);
+        column[slice + 1] += fragment.optical_depth * share;
     }
     for (std::size_t i = 1; i < column.size(); ++i) column[i] += column[i - 1];
     const auto slice = std::size_t(place);
@@ -100,9 +103,9 @@ ImageSet wavelet_model(const StageInput& input, const Settings& settings) {
         const Cells cells = cells_of(params, range, fragments, texel);
         std::vector<double> all{cells.first, cells.last};
         for (std::size_t channel = 0; channel < channels; ++channel) {
-            std::vector<CellEvent> events;
-            for (const Fragment& f : fragments) events.push_back({cells.place(f.depth), depth_of(f, channel, channels)});
-            const std::vector<double> coefficients = haar_coefficients(params.rank, events, half);
+            std::vector<CellFragment> projected;
+            for (const Fragment& f : fragments) projected.push_back({cells.place(f.depth), depth_of(f, channel, channels)});
+            const std::vector<double> coefficients = haar_coefficients(params.rank, projected, half);
             all.insert(all.end(), coefficients.begin(), coefficients.end());
         }
         return all;

@@ -2,7 +2,7 @@
 // the Haar wavelet.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/transparency/event.glsl"
+#include "passes/transparency/fragment.glsl"
 #include "passes/transparency/wavelet/wavelet.shared.h"
 
 layout(push_constant, scalar) uniform Push { WaveletPush push; };
@@ -13,10 +13,10 @@ layout(constant_id = 12) const uint channel = 3u;  // of transmittance; 3: their
 layout(location = 0) out vec4 out_coefficients[8];
 
 void main() {
-    const Event event = transparent_event();
-    const float tau = wavelet_depth(event.t, channel);
-    if (!event.visible || tau <= 0.0) discard;
-    const float x = cell_of_depth(event.z, uvec2(gl_FragCoord.xy)) / float(cells);
+    const Fragment fragment = transparent_fragment();
+    const float tau = wavelet_depth(fragment.t, channel);
+    if (!fragment.visible || tau <= 0.0) discard;
+    const float x = cell_of_depth(fragment.z, uvec2(gl_FragCoord.xy)) / float(cells);
     float coefficients[32];
     for (uint i = 0u; i < 32u; ++i) coefficients[i] = 0.0;
     for (uint p = 0u; p <= rank; ++p) {

@@ -1,17 +1,20 @@
 // Wavelet transparency: the optical depth along a texel's ray in a Haar basis, added fragment by fragment.
 #include <cmath>
 
+#include <fmt/core.h>
 #include <fmt/format.h>
 
 #include "passes/choice_names.h"
 #include "passes/scene/scene_facts.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
-#include "passes/transparency/event_draw.h"
+#include "passes/transparency/fragment_draw.h"
 #include "passes/transparency/functions/draw.h"
 #include "passes/transparency/functions/motion.h"
-#include "passes/transparency/lists/event_lists.h"
+#include "passes/transparency/lists/pixel_lists.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/wavelet/wavelet.shared.h"
+#include "passes/transparency/wavelet/wavelet_params.h"
 
 namespace strata::transparency {
 
@@ -42,7 +45,7 @@ Buffer find_bounds(Graph& graph, const FrameImages& low, const WaveletParams& pa
     if (params.bounds == bounds_frame) return graph.create("no bounds", 8);
     Buffer bounds = graph.create("depth bounds", std::uint64_t{low.extent.width} * low.extent.height * 8);
     graph.clear(bounds, 0xffffffffu);
-    draw_events(graph, "transparency/wavelet/bounds", low.transparent, low).updates("Bounds", bounds).push(push);
+    draw_fragments(graph, "transparency/wavelet/bounds", low.transparent, low).updates("Bounds", bounds).push(push);
     return bounds;
 }
 
@@ -59,7 +62,7 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, O
     Buffer bounds = find_bounds(graph, low, params, push);
     Coefficients coefficients = create_coefficients(graph, low, params, push.channels);
     for (std::uint32_t channel = 0; channel < push.channels; ++channel) {
-        DrawPass draw = draw_events(graph, "transparency/wavelet/project", low.transparent, low);
+        DrawStep draw = draw_fragments(graph, "transparency/wavelet/project", low.transparent, low);
         for (Image& four : coefficients) draw.adds_to(four, {.layer = channel});
         draw.drops_other_colors()
             .updates("Bounds", bounds)
@@ -69,7 +72,7 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, O
             .push(push);
     }
     FunctionSums drawn = create_sums(graph, images, {.accumulation = params.accumulation, .offsets = offsets});
-    draw_into(graph, "transparency/wavelet/accumulate", images, drawn, [&](DrawPass& draw, Resolution resolution) {
+    draw_into(graph, "transparency/wavelet/accumulate", images, drawn, [&](DrawStep& draw, Resolution resolution) {
         // Coefficients of pixels with bounds of their own do not mix.
         const Filter filter = params.bounds == bounds_pixel ? Filter::nearest : prepass_filter(params.resolution, resolution);
         for (std::uint32_t i = 0; i < 8; ++i)
@@ -134,14 +137,15 @@ Technique wavelet() {
     return {
         .stage = Stage::transparency,
         .name = "transparency/wavelet",
+        .aliases = {"woit"},
         .title = "Wavelet",
         .source = "Aizenshtein, Smal and McGuire 2022, arXiv 2201.00094",
         .summary =
             "Adds optical depth in a Haar basis per texel: order independent, sharp at cell borders. Layers within a cell do not "
             "hide each other; occlusion pulses as they move through it.",
         .params = params(),
-        .points = {"rank=1", "rank=3", "rank=4", "storage=single", "correction=none", "bounds=pixel", "rank=3 bounds=pixel",
-                   "jitter=1", "resolution=half", "resolution=quarter", "resolution=eighth"},
+        .variants = {"rank=1", "rank=3", "rank=4", "storage=single", "correction=none", "bounds=pixel", "rank=3 bounds=pixel",
+                     "jitter=1", "resolution=half", "resolution=quarter", "resolution=eighth"},
         .counters = counters(),
         .counter_bytes = sizeof(FunctionCounters),
         .views = {normalization_row<sums>(), motion_row<sums>()},

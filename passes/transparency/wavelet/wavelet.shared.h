@@ -15,20 +15,9 @@ const uint bounds_pixel = 1u;
 const uint correction_none = 0u;
 const uint correction_own = 1u;
 
-struct WaveletParams {
-    uint rank;  // 1..4: 2^(rank + 1) coefficients
-    uint storage;
-    uint correction;
-    uint bounds;
-    float jitter;  // in cells
-    uint channels;
-    uint resolution;
-    uint accumulation;
-};
-
 // Push constants of the steps.
 struct WaveletPush {
-    float log_nearest;  // of the frame's range of depth, in ln metres
+    float log_nearest;  // of the frame's range of depth, in ln meters
     float log_farthest;
     float jitter;
     uint width;  // texels of a row of the prepass
@@ -38,7 +27,7 @@ struct WaveletPush {
 
 // Optical depth of one fragment is written up to here: t = 1e-5 (Aizenshtein, Smal and McGuire 2022).
 const float largest_wavelet_depth = 11.51f;
-// Per-pixel bounds are wider than what they hold by so much in ln z: an event never is at the last cell's end.
+// Per-pixel bounds are wider than what they hold by so much in ln z: a fragment never is at the last cell's end.
 const float bounds_margin = 1e-3f;
 
 #ifdef __cplusplus

@@ -12,17 +12,17 @@ namespace strata::transparency {
 namespace {
 
 /// Place in cells of a depth in 0..1.
-CellEvent at(std::uint32_t rank, double depth, double optical_depth) { return {depth * ((2u << rank) - 1), optical_depth}; }
+CellFragment at(std::uint32_t rank, double depth, double optical_depth) { return {depth * ((2u << rank) - 1), optical_depth}; }
 
 TEST(Wavelet, HasTheCoefficientsOfTheChapter) {
-    const std::array event{at(1, .3, 1)};
-    const std::vector<double> c = haar_coefficients(1, event);
+    const std::array fragment{at(1, .3, 1)};
+    const std::vector<double> c = haar_coefficients(1, fragment);
     ASSERT_EQ(c.size(), 4u);
     EXPECT_NEAR(c[0], .225, 1e-12);
     EXPECT_NEAR(c[1], .318198052, 1e-9);
     EXPECT_NEAR(c[2], 0, 1e-12);
     EXPECT_NEAR(c[3], .775, 1e-12);
-    EXPECT_NEAR(haar_depth(c, event[0].place), .09, 1e-12);
+    EXPECT_NEAR(haar_depth(c, fragment[0].place), .09, 1e-12);
 
     const std::array half{at(2, .5, std::log(2.))};
     const std::vector<double> d = haar_coefficients(2, half);
@@ -36,28 +36,28 @@ TEST(Wavelet, IsAVoxelColumnWithLinearSplatsOneSliceBiasAndOtherNumbers) {
     std::uniform_real_distribution<double> share(0, 1);
     for (std::uint32_t rank = 1; rank <= 4; ++rank)
         for (int pixel = 0; pixel < 200; ++pixel) {
-            std::vector<CellEvent> events;
-            for (int i = 0; i < 12; ++i) events.push_back(at(rank, share(random), 3 * share(random)));
-            const std::vector<double> c = haar_coefficients(rank, events);
+            std::vector<CellFragment> projected;
+            for (int i = 0; i < 12; ++i) projected.push_back(at(rank, share(random), 3 * share(random)));
+            const std::vector<double> c = haar_coefficients(rank, projected);
             for (int i = 0; i < 20; ++i) {
                 const double place = at(rank, share(random), 0).place;
-                ASSERT_NEAR(haar_depth(c, place), voxel_column_depth(2u << rank, events, place), 1e-12) << rank;
+                ASSERT_NEAR(haar_depth(c, place), voxel_column_depth(2u << rank, projected, place), 1e-12) << rank;
             }
         }
 }
 
 TEST(Wavelet, KnowsWhatShowsThroughEverything) {
     for (std::uint32_t rank = 1; rank <= 4; ++rank) {
-        const std::array events{at(rank, 0, .5), at(rank, .37, 2), at(rank, 1, .25)};
-        EXPECT_NEAR(haar_depth(haar_coefficients(rank, events), (2u << rank) - 1), 2.5 + .25 * 0, 1e-12);
+        const std::array projected{at(rank, 0, .5), at(rank, .37, 2), at(rank, 1, .25)};
+        EXPECT_NEAR(haar_depth(haar_coefficients(rank, projected), (2u << rank) - 1), 2.5 + .25 * 0, 1e-12);
     }
 }
 
 /// A pixel whose fragments lie at d = depth.
 double blend(std::uint32_t rank, std::uint32_t correction, std::span<const Fragment> fragments, double behind) {
-    std::vector<CellEvent> events;
-    for (const Fragment& f : fragments) events.push_back(at(rank, f.depth, optical_depth_in_double(f.transmittance.x)));
-    const std::vector<double> c = haar_coefficients(rank, events);
+    std::vector<CellFragment> projected;
+    for (const Fragment& f : fragments) projected.push_back(at(rank, f.depth, optical_depth_in_double(f.transmittance.x)));
+    const std::vector<double> c = haar_coefficients(rank, projected);
     const Transmittance function = [&](const Fragment& f) {
         const double place = at(rank, f.depth, 0).place, share = place - std::floor(place);
         double depth = haar_depth(c, place);

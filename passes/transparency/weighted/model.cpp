@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
+#include "passes/stage_input.h"
 #include "passes/transparency/distortion/model.h"
 #include "passes/transparency/low_resolution/model.h"
 #include "passes/transparency/rounding.h"

@@ -1,8 +1,9 @@
 // Weighted blended order-independent transparency: one additive pass, no order at all.
 #include "passes/choice_names.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "passes/transparency/distortion/bent_background.h"
-#include "passes/transparency/event_draw.h"
+#include "passes/transparency/fragment_draw.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/weighted/weighted.shared.h"
 
@@ -38,7 +39,7 @@ Targets accumulate(Graph& graph, const FrameImages& images, const WeightedParams
     Targets targets{create("sum", Format::rgba16f, 0),
                     create("reveal", chromatic ? Format::rgba16f : Format::r16f, counts ? 0 : 1)};
     for (const DrawList& list : drawn_at(images, resolution)) {
-        DrawPass draw = draw_events(graph, "transparency/weighted/accumulate", list, images);
+        DrawStep draw = draw_fragments(graph, "transparency/weighted/accumulate", list, images);
         draw.adds_to(targets.sum).push(params);
         if (counts) {
             draw.adds_to(targets.reveal);
@@ -77,6 +78,7 @@ Technique weighted() {
     return {
         .stage = Stage::transparency,
         .name = "transparency/weighted",
+        .aliases = {"wboit"},
         .title = "Weighted blended",
         .source =
             "McGuire and Bavoil 2013, JCGT 2(2); colored: McGuire and Mara 2016, I3D; average: Bavoil and Myers 2008; sum: "
@@ -105,7 +107,7 @@ Technique weighted() {
                                                  .help = "how sums are resolved; normalized: weighted average; average: plain "
                                                          "average; sum: unnormalized; the last two use no weights",
                                                  .choices = forms})},
-        .points = {"weight=w9", "weight=w10", "weight=w2015", "form=average", "form=sum"},
+        .variants = {"weight=w9", "weight=w10", "weight=w2015", "form=average", "form=sum"},
         .counters = {counter<&WeightedCounters::fragments>(
                          {.name = "fragments", .help = "visible transparent fragments blended"}),
                      counter<&WeightedCounters::weights_differ>(

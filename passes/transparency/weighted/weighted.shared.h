@@ -25,7 +25,7 @@ const uint form_sum = 2u;
 
 struct WeightedParams {
     uint weight;
-    float scale;  // multiplies view depth in metres: the weights were made for 0.1 to 500 units
+    float scale;  // multiplies view depth in meters: the weights were made for 0.1 to 500 units
     uint form;
 };
 

@@ -9,11 +9,11 @@ layout(location = 1) out vec4 out_reveal;        // multiplied
 layout(location = 2) out vec4 out_additiveness;  // added
 
 void main() {
-    const Event event = transparent_event();
-    if (!event.visible) discard;
+    const Fragment fragment = transparent_fragment();
+    if (!fragment.visible) discard;
     atomicAdd(counters.fragments, 1u);
     mark_tiles();
-    out_sum = vec4(min(event.p + event.e, largest_color), 1.0) * weight_of(event);
-    out_reveal = vec4(event.t, 1.0);
-    out_additiveness = additiveness_of(event);
+    out_sum = vec4(min(fragment.p + fragment.e, largest_color), 1.0) * weight_of(fragment);
+    out_reveal = vec4(fragment.t, 1.0);
+    out_additiveness = additiveness_of(fragment);
 }

@@ -10,13 +10,13 @@ layout(location = 2) out vec4 out_additiveness;  // added
 layout(location = 3) out vec4 out_emitted;
 
 void main() {
-    const Event event = transparent_event();
-    if (!event.visible) discard;
+    const Fragment fragment = transparent_fragment();
+    if (!fragment.visible) discard;
     atomicAdd(counters.fragments, 1u);
     mark_tiles();
-    const float weight = weight_of(event);
-    out_sum = vec4(min(event.p, largest_color), coverage_of(event)) * weight;
-    out_reveal = vec4(event.t, 1.0);
-    out_additiveness = additiveness_of(event);
-    out_emitted = vec4(min(event.e, largest_color), event.e == vec3(0.0) ? 0.0 : 1.0) * weight;
+    const float weight = weight_of(fragment);
+    out_sum = vec4(min(fragment.p, largest_color), coverage_of(fragment)) * weight;
+    out_reveal = vec4(fragment.t, 1.0);
+    out_additiveness = additiveness_of(fragment);
+    out_emitted = vec4(min(fragment.e, largest_color), fragment.e == vec3(0.0) ? 0.0 : 1.0) * weight;
 }

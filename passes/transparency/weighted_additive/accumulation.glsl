@@ -1,7 +1,7 @@
 // What a fragment adds (Kircher, GDC 2018; docs/algorithms/transparency.md 3.2), and the mask of tiles that have any.
 #ifndef PASSES_TRANSPARENCY_WEIGHTED_ADDITIVE_ACCUMULATION_GLSL
 #define PASSES_TRANSPARENCY_WEIGHTED_ADDITIVE_ACCUMULATION_GLSL
-#include "passes/transparency/event.glsl"
+#include "passes/transparency/fragment.glsl"
 #include "passes/shaders/luminance.glsl"
 #include "passes/transparency/weighted_additive/weighted_additive.shared.h"
 
@@ -32,21 +32,21 @@ void mark_tiles() {
 }
 
 // Colored glass covers less than its alpha (McGuire and Mara 2016).
-float coverage_of(Event event) { return clamp(dot(1.0 - event.t, vec3(1.0 / 3.0)), 0.0, 1.0); }
+float coverage_of(Fragment fragment) { return clamp(dot(1.0 - fragment.t, vec3(1.0 / 3.0)), 0.0, 1.0); }
 
 // Emission as the exposed picture shows it.
-float relative_emission(Event event) { return luminance(event.e) * view.exposure; }
+float relative_emission(Fragment fragment) { return luminance(fragment.e) * view.exposure; }
 
-float weight_of(Event event) {
-    const float emission = clamp(relative_emission(event), 0.0, 1.0);
-    const float a = clamp(opacity_sensitivity * coverage_of(event) + emission / params.feather_start, 0.0, 1.0);
+float weight_of(Fragment fragment) {
+    const float emission = clamp(relative_emission(fragment), 0.0, 1.0);
+    const float a = clamp(opacity_sensitivity * coverage_of(fragment) + emission / params.feather_start, 0.0, 1.0);
     const float range = params.far - nearest;
-    const float b = 1.0 - clamp(params.far / range - params.far * nearest / (event.z * range), 0.0, 1.0);
+    const float b = 1.0 - clamp(params.far / range - params.far * nearest / (fragment.z * range), 0.0, 1.0);
     return min(precision_scalar * b * b * b + weight_bias, largest_weight) * a * a * a;
 }
 
-vec4 additiveness_of(Event event) {
-    return vec4(clamp(additive_sensitivity * relative_emission(event), 0.0, 1.0) / additive_layers);
+vec4 additiveness_of(Fragment fragment) {
+    return vec4(clamp(additive_sensitivity * relative_emission(fragment), 0.0, 1.0) / additive_layers);
 }
 
 #endif

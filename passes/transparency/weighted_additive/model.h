@@ -1,13 +1,21 @@
-// The method in double precision, from the talk and not from the shader. What is stored in bytes is rounded at every blend, in
-// the order of submission: that is the method. Half floats end at 65504.
+// The technique in double precision, from the talk and not from the shader. What is stored in bytes is rounded at every blend, in
+// the order of submission: that is the technique. Half floats end at 65504.
 #pragma once
 
 #include <optional>
 #include <span>
 
+#include "passes/blend_rounding.h"
+#include "passes/image_set.h"
 #include "passes/reference/fragments.h"
-#include "passes/technique.h"
 #include "passes/transparency/weighted_additive/weighted_additive.shared.h"
+
+namespace strata {
+
+class Settings;     // passes/settings.h
+struct StageInput;  // passes/stage_input.h
+
+}  // namespace strata
 
 namespace strata::transparency {
 

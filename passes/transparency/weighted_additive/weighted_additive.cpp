@@ -3,9 +3,10 @@
 #include <cassert>
 
 #include "passes/choice_names.h"
+#include "passes/stage_input.h"
 #include "passes/technique.h"
 #include "passes/transparency/distortion/bent_background.h"
-#include "passes/transparency/event_draw.h"
+#include "passes/transparency/fragment_draw.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/weighted_additive/weighted_additive.shared.h"
 
@@ -45,7 +46,7 @@ void accumulate(Graph& graph, const FrameImages& images, Targets& targets, Buffe
                 Resolution resolution) {
     const std::string shader = is_apart(params) ? "accumulate_apart" : "accumulate";
     for (const DrawList& list : drawn_at(images, resolution)) {
-        DrawPass draw = draw_events(graph, "transparency/weighted_additive/" + shader, list, images);
+        DrawStep draw = draw_fragments(graph, "transparency/weighted_additive/" + shader, list, images);
         draw.adds_to(targets.sum)
             .multiplies(targets.reveal)
             .adds_to(targets.additiveness)
@@ -153,7 +154,7 @@ Technique weighted_additive() {
             "Averages covering and additive fragments in one set of targets, at two resolutions. Stacks of covering layers are "
             "too dark; light saturates at 8 additive layers.",
         .params = params(),
-        .points = {"normalization=corrected", "normalization=corrected reveal=r16f"},
+        .variants = {"normalization=corrected", "normalization=corrected reveal=r16f"},
         .counters = {counter<&WeightedAdditiveCounters::fragments>(
                          {.name = "fragments", .help = "visible transparent fragments blended, at both resolutions"}),
                      counter<&WeightedAdditiveCounters::tiles_skipped>(

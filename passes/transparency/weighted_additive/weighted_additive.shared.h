@@ -20,7 +20,7 @@ const uint tiles_written = 0u;
 const uint tiles_all = 1u;
 
 struct WeightedAdditiveParams {
-    float far;            // metres at which depth weighs nothing any more
+    float far;            // meters at which depth weighs nothing any more
     float feather_start;  // relative emission that counts as much as an opaque fragment
     uint reveal;
     uint normalization;

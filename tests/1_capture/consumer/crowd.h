@@ -10,7 +10,7 @@
 namespace consumer {
 
 using Vec3 = std::array<double, 3>;
-/// Three columns of a rotation and the position, metres.
+/// Three columns of a rotation and the position, meters.
 using Placement = std::array<Vec3, 4>;
 
 /// What else a body does than fly.
@@ -38,7 +38,7 @@ struct Crowd {
 
 Placement placed(const Body&);
 std::vector<Placement> placements_of(const Crowd&);
-/// Half edges of a box, metres.
+/// Half edges of a box, meters.
 Vec3 half_size(std::size_t shape);
 /// Red, green, blue; every second one pulses.
 std::array<float, 3> paint_at(std::size_t paint, double time);

@@ -68,7 +68,7 @@ std::string peak_memory() {
 }
 
 int failed(const strata::Error& error) {
-    std::fprintf(stderr, "consumer: %s\n", error.sentence.c_str());
+    std::fprintf(stderr, "consumer: %s (%s)\n", error.sentence.c_str(), std::string(error.id.text()).c_str());
     return static_cast<int>(error.fault);
 }
 

@@ -22,7 +22,7 @@ public:
 
 private:
     struct Corner {
-        float x = 0, y = 0, depth = 0;  ///< pixels, 1 / metres
+        float x = 0, y = 0, depth = 0;  ///< pixels, 1 / meters
     };
     void box(const Body&, const Placement&, std::array<float, 3> paint);
     /// Color 0 shows the screen.

@@ -7,8 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "captures/scenarios.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/nearest.h"
 #include "passes/registry.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/images/image_io.h"
 #include "tests/support/pixel_triangles.h"
 #include "tests/support/session.h"

@@ -1,4 +1,4 @@
-// Partial coverage of masked surfaces (edges/coverage), by every method that masks them.
+// Partial coverage of masked surfaces (edges/coverage), by every mode that masks them.
 #include <algorithm>
 #include <span>
 
@@ -14,22 +14,22 @@
 namespace strata::masked_edges {
 namespace {
 
-std::span<const std::string_view> methods() {
+std::span<const std::string_view> modes() {
     for (const Param& param : (*find_technique("gbuffer/octahedral"))->params)
         if (param.name == "masked") return param.choices;
     return {};
 }
 
-Request with(std::uint32_t method, const std::string& edges, const std::string& attributes = "center") {
+Request with(std::uint32_t mode, const std::string& edges, const std::string& attributes = "center") {
     Request request = on_scenario("fence_and_foliage", 4);
     request.choices =
-        chosen({"gbuffer/octahedral", edges}, {fmt::format("masked={}", methods()[method]), "attributes=" + attributes});
+        chosen({"gbuffer/octahedral", edges}, {fmt::format("masked={}", modes()[mode]), "attributes=" + attributes});
     return request;
 }
 
-double figure(const Accuracy& accuracy, std::string_view name) {
-    for (const Figure& figure : accuracy.method)
-        if (figure.name == name) return figure.value;
+double metric(const Accuracy& accuracy, std::string_view name) {
+    for (const Metric& metric : accuracy.technique_errors)
+        if (metric.name == name) return metric.value;
     throw std::logic_error("no figure " + std::string(name));
 }
 
@@ -48,22 +48,22 @@ TEST_P(EdgesOfMasks, AreThoseThatDepthTellsTheModel) {
 TEST_P(EdgesOfMasks, AreHardlyMissedByPartialCoverage) {
     const Accuracy accuracy =
         must(session_of_scenarios().judge(with(GetParam(), "edges/coverage"), Stage::edges, Against::truth));
-    const double missed = figure(accuracy, "missed");
+    const double missed = metric(accuracy, "missed");
     RecordProperty("missed", fmt::format("{:.3f}", missed));
-    RecordProperty("needless", fmt::format("{:.3f}", figure(accuracy, "needless")));
-    EXPECT_LT(missed, 0.5) << methods()[GetParam()];
+    RecordProperty("needless", fmt::format("{:.3f}", metric(accuracy, "needless")));
+    EXPECT_LT(missed, 0.5) << modes()[GetParam()];
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, EdgesOfMasks,
+INSTANTIATE_TEST_SUITE_P(Modes, EdgesOfMasks,
                          testing::Values(gbuffer::masked_clip, gbuffer::masked_per_sample, gbuffer::masked_unbiased,
                                          gbuffer::masked_hardware),
-                         [](const auto& tested) { return std::string(methods()[tested.param]); });
+                         [](const auto& tested) { return std::string(modes()[tested.param]); });
 INSTANTIATE_TEST_SUITE_P(Exhaustive, EdgesOfMasks, testing::Range(0u, gbuffer::masked_hardware + 1),
-                         [](const auto& tested) { return std::string(methods()[tested.param]); });
+                         [](const auto& tested) { return std::string(modes()[tested.param]); });
 
 TEST(MaskedEdges, AreSaidToBeGuessedWhereTheDeviceOrTheSampleDecides) {
-    const auto notes_of = [](std::uint32_t method, const std::string& attributes) {
-        const auto run = must(session_of_scenarios().run(with(method, "edges/coverage", attributes)));
+    const auto notes_of = [](std::uint32_t mode, const std::string& attributes) {
+        const auto run = must(session_of_scenarios().run(with(mode, "edges/coverage", attributes)));
         return std::ranges::count_if(run.notes, [](const std::string& note) { return note.starts_with("edges/coverage: "); });
     };
     EXPECT_EQ(notes_of(gbuffer::masked_unbiased, "center"), 0);

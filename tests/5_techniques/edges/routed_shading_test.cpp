@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "captures/scenarios.h"
+#include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "tests/support/agreement.h"
 #include "tests/support/session.h"
 

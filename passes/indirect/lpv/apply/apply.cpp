@@ -1,12 +1,15 @@
 #include "passes/indirect/lpv/apply/apply.h"
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/edges/plain_pixels.h"
+#include "passes/frame_images.h"
 #include "passes/gbuffer/surface_at.h"
 
 namespace strata::indirect {
 namespace {
 
-/// Metres over which a grid fades at its border: a cell, of cascades two.
+/// Meters over which a grid fades at its border: a cell, of cascades two.
 float border(const LightGrid& grid) { return float((grid.is_local ? 1 : 2) * grid.cell); }
 
 std::uint32_t words_of(const FrameImages& frame) {
@@ -60,8 +63,8 @@ void find_macro_cells(Graph& graph, const FrameImages& frame, const LpvParams& p
         .over({cells.x, cells.y, cells.z * words});
 }
 
-ComputePass see_light(ComputePass pass, const FrameImages& frame, const LpvParams& params, const DeviceGrid& grid) {
-    return sample_gbuffer(bind_taps(pass, frame, params, grid), frame).push(apply_push(grid));
+ComputeStep see_light(ComputeStep builder, const FrameImages& frame, const LpvParams& params, const DeviceGrid& grid) {
+    return sample_gbuffer(bind_taps(builder, frame, params, grid), frame).push(apply_push(grid));
 }
 
 namespace {
@@ -109,7 +112,7 @@ struct Readings {
     Image chosen;  ///< none at full resolution
 };
 
-ComputePass light_samples(Graph& graph, const Readings& readings, const DeviceGrid& grid, const TileLists& lists) {
+ComputeStep light_samples(Graph& graph, const Readings& readings, const DeviceGrid& grid, const TileLists& lists) {
     const auto& [frame, params, chosen] = readings;
     return sample_edges(see_light(graph.compute("indirect/lpv/apply/apply.comp"), frame, params, grid), frame)
         .samples("chosen_pixels", chosen)

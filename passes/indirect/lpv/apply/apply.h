@@ -4,6 +4,7 @@
 #include <span>
 
 #include "passes/indirect/lpv/device_grid.h"
+#include "passes/indirect/lpv/lpv_params.h"
 
 namespace strata::indirect {
 
@@ -16,9 +17,9 @@ ApplyPush apply_push(const DeviceGrid&);
 std::uint32_t asks_taps(const LpvParams&, const DeviceGrid&);
 
 /// Binds what passes/indirect/lpv/apply/taps.glsl declares.
-template <typename Pass>
-Pass& bind_taps(Pass&& pass, const FrameImages& frame, const LpvParams& params, const DeviceGrid& grid) {
-    return fix_blockers(pass, frame)
+template <typename Builder>
+Builder& bind_taps(Builder&& builder, const FrameImages& frame, const LpvParams& params, const DeviceGrid& grid) {
+    return fix_blockers(builder, frame)
         .loads("Total", grid.total)
         .loads("MacroCells", grid.macro_cells ? grid.macro_cells : grid.total)
         .fixes("has_macro_cells", grid.macro_cells ? 1u : 0u)
@@ -27,7 +28,7 @@ Pass& bind_taps(Pass&& pass, const FrameImages& frame, const LpvParams& params, 
 }
 
 /// The same and the G-buffer, to a step over pixels.
-ComputePass see_light(ComputePass, const FrameImages&, const LpvParams&, const DeviceGrid&);
+ComputeStep see_light(ComputeStep, const FrameImages&, const LpvParams&, const DeviceGrid&);
 
 /// Irradiance / pi of every sample. What a point takes of the first grid that holds it lies over what it takes of those after it.
 Image apply(Graph&, const FrameImages&, const LpvParams&, std::span<const DeviceGrid>);

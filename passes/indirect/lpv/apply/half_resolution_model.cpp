@@ -8,7 +8,7 @@
 namespace strata::indirect::in_double {
 namespace {
 
-// Metres off both surfaces between which barriers are looked for, and the least sum of weights.
+// Meters off both surfaces between which barriers are looked for, and the least sum of weights.
 constexpr double way_start = 0.02, least_fit = 0.25;
 
 glm::uvec2 blocks_of(const VisibleSurfaces& seen) { return {(seen.width + 1) / 2, (seen.height + 1) / 2}; }

@@ -1,5 +1,6 @@
 #include "passes/indirect/lpv/injection/bounce.h"
 
+#include "passes/frame_images.h"
 #include "passes/indirect/lpv/apply/apply.h"
 #include "passes/indirect/lpv/surfels/surfels.h"
 
@@ -18,7 +19,7 @@ DeviceGrid reflected(Graph& graph, const FrameImages& frame, const LpvParams& pa
         .groups({1, 1, 1});
     next.sums = graph.create(next.name("injected light of grid"), std::uint64_t{lit.cells()} * sizeof(LightCell));
     graph.clear(next.sums, 0);
-    draw_surfels(graph, frame, lit, "indirect/lpv/injection/reflect", [&](DrawPass& draw) {
+    draw_surfels(graph, frame, lit, "indirect/lpv/injection/reflect", [&](DrawStep& draw) {
         bind_taps(draw, frame, params, lit)
             .loads("Scale", next.scale)
             .updates("Sums", next.sums)

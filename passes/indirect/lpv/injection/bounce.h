@@ -2,6 +2,7 @@
 #pragma once
 
 #include "passes/indirect/lpv/device_grid.h"
+#include "passes/indirect/lpv/lpv_params.h"
 
 namespace strata::indirect {
 

@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push { GridPlace grid; };
 layout(set = 0, binding = 1, scalar) writeonly buffer Scale { float fixed_one; };
 layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
 
-// Irradiance is 4 of these at most, by either rule, where cells are a metre wide; what is injected of it is watt1 at most.
+// Irradiance is 4 of these at most, by either rule, where cells are a meter wide; what is injected of it is watt1 at most.
 float brightness(vec4 light) { return y0 * light.x + y1 * length(light.yzw); }
 const float most_faces = 64.0;
 

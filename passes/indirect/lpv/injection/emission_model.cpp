@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "capture_format/light_types.h"
 #include "passes/reference/lights.h"
 
 namespace strata::indirect::in_double {
@@ -46,18 +47,17 @@ LightAxes axes_around(const glm::vec3& direction) {
 glm::dvec3 radiant_intensity(const Light& light, const glm::dvec3& direction) {
     const glm::dvec3 shines = glm::max(glm::dvec3(light.intensity), 0.0);
     const double cosine = glm::dot(direction, glm::dvec3(light.direction)), radius = light.source_radius;
-    switch (light.type) {
-        case LightType::round_spot:
-            return shines * round_spot_share(light, cosine);
-        case LightType::square_spot:
-            return shines * square_spot(light, direction);
-        case LightType::sphere:
+    const LightTypeFacts& facts = facts_of(light.type);
+    if (facts.cone == LightCone::round) return shines * round_spot_share(light, cosine);
+    if (facts.cone == LightCone::square) return shines * square_spot(light, direction);
+    switch (facts.shape) {
+        case LightShape::sphere:
             return shines * (pi * radius * radius);
-        case LightType::disc:
+        case LightShape::disc:
             return shines * (pi * radius * radius * std::max(0.0, cosine));
-        case LightType::rectangle:
+        case LightShape::rectangle:
             return shines * (4 * double(light.half_extent.x) * double(light.half_extent.y) * std::max(0.0, cosine));
-        case LightType::tube:
+        case LightShape::tube:
             return shines * tube_area(light, direction);
         default:
             return shines;

@@ -4,7 +4,11 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
+namespace strata {
+
+struct Light;  // capture_format/frame/light.h
+
+}  // namespace strata
 
 namespace strata::indirect::in_double {
 

@@ -29,7 +29,7 @@ vec3 size_share(LightRecord light, vec3 towards) {
 vec3 sent_towards(LightRecord light, vec3 place) {
     const vec3 offset = place - light.position;
     const float squared = dot(offset, offset);
-    if (light.type >= light_tube) return size_share(light, normalize(offset)) * range_window(sqrt(squared), light.range);
+    if (light_has_area(light.type)) return size_share(light, normalize(offset)) * range_window(sqrt(squared), light.range);
     MaterialPoint m;
     m.position = place;
     return incident_light(light, m, light_features & ~feature_projected_texture).irradiance * max(squared, nearest_light * nearest_light);
@@ -37,7 +37,7 @@ vec3 sent_towards(LightRecord light, vec3 place) {
 
 // W that arrive at a texel's surface.
 vec3 arriving(LightRecord light, vec3 place, uvec2 texel) {
-    if (light.type == light_directional) return light.intensity * push.texel_area;
+    if (!light_has_range(light.type)) return light.intensity * push.texel_area;
     const vec2 size = vec2(textureSize(position, 0).xy);
     const vec2 t = ((vec2(texel) + 0.5) / size * 2.0 - 1.0) * push.slopes;
     const float along = 1.0 + dot(t, t);
@@ -67,7 +67,7 @@ void main() {
     const vec4 place = texelFetch(position, at, 0);
     if (place.w == 0.0) return;
     const LightRecord light = lights[push.light];
-    const vec3 to_light = light.type == light_directional ? -light.direction : light.position - place.xyz;
+    const vec3 to_light = light_has_range(light.type) ? light.position - place.xyz : -light.direction;
     const vec3 facing = texelFetch(normal, at, 0).xyz;
     const vec3 n = normalize(dot(facing, to_light) < 0.0 ? -facing : facing);
     const vec3 flux = reflected_flux(light, place.xyz, n, at);

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <span>
 
+#include "capture_format/frame/light.h"
+#include "capture_format/light_types.h"
 #include "passes/indirect/lpv/injection/maps.h"
 #include "passes/indirect/lpv/kept/gated_casters.h"
 #include "passes/scene/scene_facts.h"
@@ -59,7 +61,7 @@ void inject_lights(Graph& graph, const FrameImages& frame, const LpvParams& para
         std::vector<DeviceGrid*> reached;
         for (DeviceGrid& grid : grids)
             if (injects(lights[i], grid.grid)) reached.push_back(&grid);
-        if (lights[i].type != LightType::directional) {
+        if (has_range(lights[i].type)) {
             if (!reached.empty()) inject(graph, casters, params, i, maps_around(*frame.recorded, lights[i]), reached);
             continue;
         }

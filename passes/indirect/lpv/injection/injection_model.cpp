@@ -7,15 +7,15 @@
 namespace strata::indirect::in_double {
 namespace {
 
-// Metres that the segment to a cell's middle starts before the surface (docs/algorithms/lighting.md 5.3).
+// Meters that the segment to a cell's middle starts before the surface (docs/algorithms/lighting.md 5.3).
 constexpr double before_surface = 0.01;
 
-// Metres by which lights are moved on along their normals, so that a wall whose lights fall onto a border between cells gives
+// Meters by which lights are moved on along their normals, so that a wall whose lights fall onto a border between cells gives
 // them all to the cells beyond it (docs/algorithms/lighting.md 5.3).
 constexpr double across_border = 1e-4;
 
 /// +x -x +y -y +z -z of a cell, those whose middles are nearest to a place within it first. The place is relative to the middle.
-std::array<glm::ivec3, 6> neighbours_by_distance(const glm::ivec3& cell, const glm::dvec3& place) {
+std::array<glm::ivec3, 6> neighbors_by_distance(const glm::ivec3& cell, const glm::dvec3& place) {
     std::array<glm::ivec3, 6> ways;
     for (glm::length_t i = 0; i < 6; ++i) {
         ways[std::size_t(i)] = glm::ivec3(0);
@@ -41,7 +41,7 @@ std::optional<glm::uvec3> receiving_cell(const Grid& grid, const VirtualLight& l
     if (takes(first)) return glm::uvec3(first);
     const glm::ivec3 ahead = cell_at(grid, light.position + light.normal * (size + across_border));
     if (takes(ahead)) return glm::uvec3(ahead);
-    for (const glm::ivec3& cell : neighbours_by_distance(first, in_cells(grid, biased) - glm::dvec3(first) - 0.5))
+    for (const glm::ivec3& cell : neighbors_by_distance(first, in_cells(grid, biased) - glm::dvec3(first) - 0.5))
         if (takes(cell)) return glm::uvec3(cell);
     return std::nullopt;
 }

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/light_types.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
 #include "passes/scene/light_pyramids.h"
 #include "passes/scene/material_uses.h"
 #include "passes/scene/scene_facts.h"
@@ -25,23 +29,23 @@ double strongest(const Light& light) { return std::max({0.f, light.intensity.x, 
 /// W/sr where the light is brightest, for an intensity of 1.
 double widest_side(const Light& light) {
     const double r = light.source_radius, disc = std::numbers::pi * r * r;
-    switch (light.type) {
-        case LightType::sphere:
-        case LightType::disc:
+    switch (facts_of(light.type).shape) {
+        case LightShape::sphere:
+        case LightShape::disc:
             return disc;
-        case LightType::rectangle:
+        case LightShape::rectangle:
             return 4. * double(light.half_extent.x) * double(light.half_extent.y);
-        case LightType::tube:
+        case LightShape::tube:
             return 4. * r * double(light.half_extent.x) + disc;
         default:
             return 1;
     }
 }
 
-/// Steradians that a light shines into; square metres of parallel light over the grid.
+/// Steradians that a light shines into; square meters of parallel light over the grid.
 double extent(const Light& light, const LightGrid& grid) {
-    if (light.type == LightType::directional) return std::pow(2 * radius(grid), 2);
-    const double round = light.type == LightType::round_spot ? 1 - std::cos(double(light.outer_angle)) : 2;
+    if (!has_range(light.type)) return std::pow(2 * radius(grid), 2);
+    const double round = facts_of(light.type).cone == LightCone::round ? 1 - std::cos(double(light.outer_angle)) : 2;
     return 2 * std::numbers::pi * round;
 }
 
@@ -51,7 +55,7 @@ LightMaps maps_around(const Frame& frame, const Light& light) {
     LightMaps maps;
     const glm::dvec3 position = in_view_space(frame.view, light.position);
     const auto row = [&](const glm::dvec3& axis) { return glm::dvec4(axis, -glm::dot(axis, position)); };
-    constexpr double near = .05;  // metres; depth is reversed and infinite, so that it costs nothing to be near
+    constexpr double near = .05;  // meters; depth is reversed and infinite, so that it costs nothing to be near
     for (const LightPyramid& pyramid : light_pyramids(frame, light)) {
         maps.slopes = glm::vec2(pyramid.slopes);
         maps.views.push_back(
@@ -86,7 +90,7 @@ LightMaps maps_over(const SceneFacts& facts, const Light& light, const LightGrid
 bool injects(const Light& light, const LightGrid& grid) {
     // Flux that is no number would be in the scale of all sums.
     if (!std::isfinite(most_flux(light, grid)) || strongest(light) <= 0) return false;
-    if (light.type == LightType::directional) return true;
+    if (!has_range(light.type)) return true;
     // A surface may be a cell beside the cell that it lights.
     const glm::dvec3 low = grid.origin - grid.cell, high = grid.origin + (glm::dvec3(grid.cells) + 1.) * grid.cell;
     return glm::distance(glm::clamp(light.position, low, high), light.position) < double(light.range);
@@ -109,7 +113,7 @@ MapImages draw_maps(Graph& graph, const FrameImages& frame, const LightMaps& map
                      .albedo = image("lit albedos", Format::rgba16f)};
     Image depth = image("depth of a light's map", Format::d32f);
     for (std::uint32_t layer = 0; layer < maps.views.size(); ++layer) {
-        DrawPass draw = graph.draw("indirect/lpv/injection/map", frame.casters);
+        DrawStep draw = graph.draw("indirect/lpv/injection/map", frame.casters);
         fix_materials(draw, frame, Surfaces::opaque)
             .covers(images.position, {.layer = layer})
             .covers(images.normal, {.layer = layer})

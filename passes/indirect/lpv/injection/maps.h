@@ -4,9 +4,17 @@
 
 #include <vector>
 
-#include "passes/frame_images.h"
+#include "passes/graph/step.h"
 #include "passes/indirect/lpv/lpv.shared.h"
 #include "passes/scene/light_grids.h"
+
+namespace strata {
+
+class Graph;         // passes/graph/graph.h
+struct FrameImages;  // passes/frame_images.h
+struct Light;        // capture_format/frame/light.h
+
+}  // namespace strata
 
 namespace strata::indirect {
 
@@ -14,7 +22,7 @@ namespace strata::indirect {
 struct LightMaps {
     std::vector<MapPush> views;
     glm::vec2 slopes{0};   ///< of the maps' sides; 0 for parallel light
-    float texel_area = 0;  ///< of parallel light, square metres
+    float texel_area = 0;  ///< of parallel light, square meters
 };
 
 /// Of a light that has a position: one map of a spot, else six.

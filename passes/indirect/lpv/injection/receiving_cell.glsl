@@ -10,7 +10,7 @@ layout(constant_id = 11) const uint guards = 0u;  // 1: not into cells that a bl
 layout(set = 0, binding = 3, scalar) buffer Sums { int sums[]; };
 layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
 
-// Metres by which light is moved on along its normal. Walls like to lie so that their light falls onto a border of cells: the rounding of each
+// Meters by which light is moved on along its normal. Walls like to lie so that their light falls onto a border of cells: the rounding of each
 // texel would decide between the cells on both sides.
 const float across_border = 1e-4;
 

@@ -7,6 +7,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/light_types.h"
 #include "passes/indirect/lpv/injection/emission_model.h"
 #include "passes/reference/lights.h"
 #include "passes/reference/surfaces.h"
@@ -17,7 +19,7 @@ namespace {
 
 // Half angles of spots end here: 85 degrees.
 constexpr double widest_spot = 85 * 3.14159265358979323846 / 180;
-// Metres along its axis where a map of a local light begins.
+// Meters along its axis where a map of a local light begins.
 constexpr double nearest_surface = 0.05;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -106,9 +108,9 @@ std::vector<VirtualLight> ReflectiveMaps::side_of(const Light& light, const Ligh
 
 std::vector<VirtualLight> ReflectiveMaps::of_local(const Light& light) const {
     const LightBlockers blockers = light_blockers(*frame_, light);
-    if (light.type == LightType::round_spot || light.type == LightType::square_spot) {
+    if (is_spot(light.type)) {
         const double u = spot_slope(light.outer_angle);
-        const double v = light.type == LightType::square_spot ? spot_slope(light.inner_angle) : u;
+        const double v = facts_of(light.type).cone == LightCone::square ? spot_slope(light.inner_angle) : u;
         return side_of(light, blockers, {.axes = light_axes(light), .slopes = {u, v}});
     }
     std::vector<VirtualLight> all;

@@ -8,7 +8,6 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
 #include "passes/indirect/lpv/grids_model.h"
 #include "passes/indirect/lpv/injection/injection_model.h"
 #include "passes/reference/blockers.h"

@@ -16,7 +16,7 @@ layout(set = 0, binding = 3, scalar) readonly buffer Barriers { KeptBarrier barr
 layout(set = 0, binding = 4, scalar) buffer KeptLinks { float kept_links[]; };
 layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
 
-// The middle of a face in metres from the corner of the grid's first cell, before as well as now.
+// The middle of a face in meters from the corner of the grid's first cell, before as well as now.
 bool is_near_barrier(KeptBarrier held, vec3 middle) {
     const float reach = 0.867 * push.grid.cell;  // of face.glsl's is_near(), and what the eye's place rounds away
     const vec3 offset = middle - held.center;

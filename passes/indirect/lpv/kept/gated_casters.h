@@ -4,6 +4,7 @@
 #include <map>
 #include <span>
 
+#include "passes/frame_images.h"
 #include "passes/indirect/lpv/device_grid.h"
 
 namespace strata::indirect {

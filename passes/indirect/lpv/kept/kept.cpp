@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "passes/frame_images.h"
 #include "passes/indirect/lpv/kept/kept.shared.h"
 #include "passes/indirect/lpv/kept/keys.h"
 #include "passes/indirect/lpv/propagation/propagation.h"

@@ -43,7 +43,7 @@ struct IdentityPush {
 // A blocker, or a portal on its blocker, as rounds that hold it.
 struct KeptBarrier {
     uvec2 identity;
-    vec3 center;  // metres from the corner of the grid's first cell, along the world's axes
+    vec3 center;  // meters from the corner of the grid's first cell, along the world's axes
     float radius;
     vec3 normal;
 };

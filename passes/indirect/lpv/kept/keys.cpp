@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/light_types.h"
+#include "passes/frame_images.h"
 #include "passes/indirect/lpv/injection/maps.h"
 #include "passes/indirect/lpv/kept/middles.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
@@ -47,7 +51,7 @@ void add(Digest& digest, const Light& light) {
 
 /// Whether a light of some range may show it.
 bool is_reached(const Frame& frame, const Light& light, const BoundingSphere& caster) {
-    if (light.type == LightType::directional) return true;
+    if (!has_range(light.type)) return true;
     const double away = glm::distance(in_view_space(frame.view, light.position), caster.center);
     return away - caster.radius <= double(light.range) + 1e-3;  // the eye's place rounds spheres
 }

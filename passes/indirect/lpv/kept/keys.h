@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "passes/indirect/lpv/device_grid.h"
+#include "passes/indirect/lpv/lpv_params.h"
 
 namespace strata::indirect {
 

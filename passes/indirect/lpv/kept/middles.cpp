@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/indirect/ways.shared.h"
 
 namespace strata::indirect {
 namespace {
 
-/// Metres by which shaders may be wrong about a middle's height over a plane: places are floats relative to the eye.
+/// Meters by which shaders may be wrong about a middle's height over a plane: places are floats relative to the eye.
 double rounding(const Frame& frame, const LightGrid& grid) {
     const glm::dvec3 size = grid.cell * glm::dvec3(grid.cells);
     return 2e-6 * (glm::distance(grid.origin + .5 * size, frame.view.origin) + glm::length(size));
@@ -21,7 +23,7 @@ struct Plane {
     double tolerance;
 };
 
-/// `rounded`: metres.
+/// `rounded`: meters.
 Plane plane_of(const Blocker& blocker, const LightGrid& grid, double rounded) {
     constexpr double rounded_cosine = 1e-5;
     const glm::dvec3 u = glm::normalize(glm::dvec3(blocker.u)), normal = glm::normalize(glm::cross(u, glm::dvec3(blocker.v)));

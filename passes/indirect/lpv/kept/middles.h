@@ -1,7 +1,6 @@
 // Middles of cells whose side of a blocker the eye's place decides.
 #pragma once
 
-#include "capture_format/frame.h"
 #include "passes/scene/light_grids.h"
 
 namespace strata::indirect {

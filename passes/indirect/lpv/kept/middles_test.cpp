@@ -1,12 +1,13 @@
 // Where the eye's place decides on which side of a blocker a cell's middle is.
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/indirect/lpv/kept/middles.h"
 
 namespace strata::indirect {
 namespace {
 
-/// Middles at multiples of half a metre from (-2, -2, -2) to (1.5, 1.5, 1.5).
+/// Middles at multiples of half a meter from (-2, -2, -2) to (1.5, 1.5, 1.5).
 const LightGrid grid{.origin = glm::dvec3(-2.25), .cell = .5, .cells = glm::uvec3(8)};
 
 bool meets(const Blocker& blocker) {
@@ -15,7 +16,7 @@ bool meets(const Blocker& blocker) {
     return has_middle_of_either_side(frame, grid);
 }
 
-/// A square of two metres.
+/// A square of two meters.
 Blocker square(glm::dvec3 center, glm::vec3 u, glm::vec3 v) { return {.center = center, .u = u, .v = v}; }
 
 const glm::vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);

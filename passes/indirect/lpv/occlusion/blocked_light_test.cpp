@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/indirect/lpv/injection/injection_model.h"
 #include "passes/indirect/lpv/occlusion/occlusion_model.h"
 #include "passes/indirect/reading_model.h"
@@ -326,7 +327,7 @@ TEST(BlockedLight, IsInjectedOnItsSideOfAWall) {
     const auto only = [&](const uvec3& cell) { return std::vector{cell_index(grid.cells, cell)}; };
     // A tenth of a cell before the wall at 4.6: the middle of its cell, at 4.5, is behind.
     EXPECT_EQ(lit_cells(light_at({4.7, 4.2, 4.2}, {1, 0, 0}), 0.1), only({5, 4, 4})) << "a cell along the normal";
-    EXPECT_EQ(lit_cells(light_at({4.7, 4.0, 4.2}, {0, 1, 0}), 0.5), only({5, 4, 4})) << "the nearest neighbour before the wall";
+    EXPECT_EQ(lit_cells(light_at({4.7, 4.0, 4.2}, {0, 1, 0}), 0.5), only({5, 4, 4})) << "the nearest neighbor before the wall";
     EXPECT_EQ(lit_cells(light_at({4.3, 4.0, 4.2}, {0, 1, 0}), 0.5), only({4, 4, 4})) << "on the other side the cell's own";
     EXPECT_EQ(receiving_cell(grid, light_at({4.6, 4.2, 4.2}, {1, 0, 0}), {.barriers = walls}), uvec3(5, 4, 4)) << "on the wall";
     EXPECT_EQ(receiving_cell(grid, light_at({4.6, 4.2, 4.2}, {-1, 0, 0}), {.barriers = walls}), uvec3(4, 4, 4))

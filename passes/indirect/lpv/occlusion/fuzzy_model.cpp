@@ -32,7 +32,7 @@ struct GeometryVolume {
         }
     }
 
-    /// Of the face between a cell and its next neighbour.
+    /// Of the face between a cell and its next neighbor.
     double stopped(const glm::uvec3& cell, glm::length_t axis) {
         std::array<double, 2> sums{};
         for (std::uint32_t i = 0; i < 4; ++i) {

@@ -53,9 +53,9 @@ Coverage coverage(std::span<const Barrier> near, const Segment& middles, glm::le
 }  // namespace
 
 double occlusion(const Grid& grid, const glm::uvec3& cell, glm::length_t axis, std::span<const Barrier> all) {
-    glm::ivec3 neighbour(cell);
-    ++neighbour[axis];
-    const Segment middles{cell_middle(grid, glm::ivec3(cell)), cell_middle(grid, neighbour)};
+    glm::ivec3 neighbor(cell);
+    ++neighbor[axis];
+    const Segment middles{cell_middle(grid, glm::ivec3(cell)), cell_middle(grid, neighbor)};
     std::vector<Barrier> near;
     std::ranges::copy_if(all, std::back_inserter(near), [&](const Barrier& b) { return is_near(b, middles, grid.cell_size); });
     if (near.empty()) return 0;

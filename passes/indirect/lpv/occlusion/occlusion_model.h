@@ -1,4 +1,4 @@
-// How much light blockers and portals let through between neighbouring cells, in double: axial occlusion
+// How much light blockers and portals let through between neighboring cells, in double: axial occlusion
 // (docs/algorithms/lighting.md 5.6; Kircher, Rendering Technology in Agents of Mayhem, GDC 2018).
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace strata::indirect::in_double {
 
-/// Occluded share of the face between a cell and its neighbour along +axis, in steps of 1/255; exactly 1 from 0.999 on. The share
+/// Occluded share of the face between a cell and its neighbor along +axis, in steps of 1/255; exactly 1 from 0.999 on. The share
 /// is of 8 x 8 segments; where a blocker at least 1.5 cells wide and high stops the one between the cells' middles, only portals
 /// let light through.
 double occlusion(const Grid&, const glm::uvec3& cell, glm::length_t axis, std::span<const Barrier>);

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/indirect/lpv/volumes.h"
 
 namespace strata::indirect {

@@ -6,8 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "capture_format/frame.h"
 #include "passes/scene/light_grids.h"
+
+namespace strata {
+
+struct Portal;  // capture_format/frame/light.h
+
+}  // namespace strata
 
 namespace strata::indirect {
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame/light.h"
 #include "passes/indirect/lpv/occlusion/small_portals.h"
 
 namespace strata::indirect {

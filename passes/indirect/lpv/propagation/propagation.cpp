@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "passes/frame_images.h"
 #include "passes/indirect/lpv/occlusion/fuzzy.h"
 
 namespace strata::indirect {
@@ -45,18 +46,18 @@ void resolve(Graph& graph, const LpvParams& params, DeviceGrid& grid, Buffer& st
 
 }  // namespace
 
-ComputePass fix_faces(ComputePass pass, const LpvParams& params) {
-    return pass.fixes("propagation", params.propagation).fixes("faces", params.faces);
+ComputeStep fix_faces(ComputeStep builder, const LpvParams& params) {
+    return builder.fixes("propagation", params.propagation).fixes("faces", params.faces);
 }
 
 std::uint32_t iterations(const LpvParams& params, const DeviceGrid& grid) {
     return params.iterations > 0 ? params.iterations : grid.grid.iterations;
 }
 
-ComputePass fix_links(ComputePass pass, const DeviceGrid& grid, std::uint32_t step) {
+ComputeStep fix_links(ComputeStep builder, const DeviceGrid& grid, std::uint32_t step) {
     const bool is_fuzzy = grid.is_fuzzy && step > 0;
     const Buffer& links = is_fuzzy ? grid.later_links : grid.has_links ? grid.links : grid.sums;
-    return pass.loads("Links", links).fixes("has_links", is_fuzzy || grid.has_links ? 1u : 0u);
+    return builder.loads("Links", links).fixes("has_links", is_fuzzy || grid.has_links ? 1u : 0u);
 }
 
 void propagate(Graph& graph, const FrameImages& frame, const LpvParams& params, DeviceGrid& grid,

@@ -15,7 +15,7 @@ using std::numbers::pi;
 
 const double lobe0 = std::sqrt(pi) / 2, lobe1 = std::sqrt(pi / 3);
 
-/// Of the faces of the neighbour along d as the middle of the source cell sees them: solid angles, and the integrals of the
+/// Of the faces of the neighbor along d as the middle of the source cell sees them: solid angles, and the integrals of the
 /// direction over them: far_along d for the far face, side_along d + side_out f for the side face towards f.
 struct Faces {
     double far_angle, side_angle;
@@ -34,7 +34,7 @@ glm::dvec3 direction_integral(const std::array<glm::dvec3, 4>& corners) {
     return sum / 2.0;
 }
 
-/// docs/algorithms/lighting.md 5.4. The neighbour along z is the cube between z = 0.5 and z = 1.5.
+/// docs/algorithms/lighting.md 5.4. The neighbor along z is the cube between z = 0.5 and z = 1.5.
 Faces faces_of(uint rule) {
     const double far_angle = 4 * std::asin(0.1), side_angle = (2 * pi / 3 - far_angle) / 4;
     if (rule == faces_centre)

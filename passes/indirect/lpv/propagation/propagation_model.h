@@ -12,7 +12,7 @@
 
 namespace strata::indirect::in_double {
 
-/// The cells of a grid, and how much light passes from each to its + neighbours.
+/// The cells of a grid, and how much light passes from each to its + neighbors.
 struct Links {
     glm::uvec3 cells{1};
     std::vector<glm::dvec3> open = {};  ///< by cell_index(): shares 0 to 1 along x, y, z; empty: everything passes
@@ -24,7 +24,7 @@ struct PropagationRule {
     uint faces = faces_centre;
 };
 
-/// What arrives at a neighbour's cell of the light in a cell: the neighbour lies along +axis (sign 1) or -axis (sign -1).
+/// What arrives at a neighbor's cell of the light in a cell: the neighbor lies along +axis (sign 1) or -axis (sign -1).
 struct Travel {
     glm::length_t axis = 0;
     double sign = 1;
@@ -33,7 +33,7 @@ glm::dvec4 arriving(const glm::dvec4& source, const Travel&, const PropagationRu
 /// Factor on what a cell sends: 1 but for propagation_energy_true.
 double sent_share(const glm::dvec4& source, const PropagationRule&);
 
-/// One step: what every cell receives of its six neighbours. Light that leaves the grid is lost.
+/// One step: what every cell receives of its six neighbors. Light that leaves the grid is lost.
 Channel next_step(const Links&, const Channel&, const PropagationRule&);
 /// The sum of `injected` and of what every step after it gave.
 Channel propagated(const Links&, const Channel& injected, const PropagationRule&, std::uint32_t iterations);

@@ -17,8 +17,8 @@ namespace {
 using glm::dvec3, glm::dvec4, glm::uvec3;
 using std::numbers::pi;
 
-constexpr PropagationRule linear_centre{propagation_linear, faces_centre}, linear_exact{propagation_linear, faces_exact};
-constexpr PropagationRule all_rules[] = {linear_centre,
+constexpr PropagationRule linear_center{propagation_linear, faces_centre}, linear_exact{propagation_linear, faces_exact};
+constexpr PropagationRule all_rules[] = {linear_center,
                                          linear_exact,
                                          {propagation_clamped, faces_centre},
                                          {propagation_clamped, faces_exact},
@@ -87,16 +87,16 @@ double held(const Channel& channel) {
 }
 
 // T5.3
-TEST(PropagatedLight, GoesToSixNeighboursWithoutLoss) {
+TEST(PropagatedLight, GoesToSixNeighborsWithoutLoss) {
     double all = 0;
     for (const Travel& way : six_ways) {
-        const dvec4 sent = arriving({1, 0, 0, 0}, way, linear_centre);
+        const dvec4 sent = arriving({1, 0, 0, 0}, way, linear_center);
         EXPECT_NEAR(sent.x, 1. / 6, 1e-12);
         all += sent.x;
     }
     EXPECT_NEAR(all, 1, 1e-12);
-    // l1 of a neighbour holds the far face alone: (C1 / pi) Y0 times its solid angle.
-    const double far = arriving({1, 0, 0, 0}, {2, 1}, linear_centre).w * pi * 2 * std::sqrt(pi) / std::sqrt(pi / 3);
+    // l1 of a neighbor holds the far face alone: (C1 / pi) Y0 times its solid angle.
+    const double far = arriving({1, 0, 0, 0}, {2, 1}, linear_center).w * pi * 2 * std::sqrt(pi) / std::sqrt(pi / 3);
     EXPECT_NEAR(far, 0.400669684646, 1e-12);
     EXPECT_NEAR(far + 4 * 0.423431354437, 2 * pi / 3, 4e-12);
 }
@@ -106,7 +106,7 @@ TEST(PropagatedLight, IsTheSumOverFiveFaces) {
     for (int i = 0; i < 200; ++i) {
         const dvec4 source = arbitrary(random);
         for (const Travel& way : six_ways) {
-            EXPECT_COEFFICIENTS(arriving(source, way, linear_centre), face_by_face(source, direction_of(way), -INFINITY), 1e-12);
+            EXPECT_COEFFICIENTS(arriving(source, way, linear_center), face_by_face(source, direction_of(way), -INFINITY), 1e-12);
             EXPECT_COEFFICIENTS(arriving(source, way, {propagation_clamped, faces_centre}),
                                 face_by_face(source, direction_of(way), 0), 1e-12);
         }
@@ -114,10 +114,10 @@ TEST(PropagatedLight, IsTheSumOverFiveFaces) {
 }
 
 TEST(PropagatedLight, HasThePublishedConstants) {
-    const dvec4 along = arriving({0, 0, 0, 1}, {2, 1}, linear_centre), across = arriving({0, 1, 0, 0}, {2, 1}, linear_centre);
+    const dvec4 along = arriving({0, 0, 0, 1}, {2, 1}, linear_center), across = arriving({0, 1, 0, 0}, {2, 1}, linear_center);
     EXPECT_COEFFICIENTS(along, dvec4(0.264029168570, 0, 0, 0.063768560859), 1e-12);
     EXPECT_COEFFICIENTS(across, dvec4(0, 0.060276515559, 0, 0), 1e-12);
-    EXPECT_COEFFICIENTS(arriving({1, 0, 0, 0}, {2, 1}, linear_centre), dvec4(1. / 6, 0, 0, 0.036816795778), 1e-12);
+    EXPECT_COEFFICIENTS(arriving({1, 0, 0, 0}, {2, 1}, linear_center), dvec4(1. / 6, 0, 0, 0.036816795778), 1e-12);
     const dvec4 exact_along = arriving({0, 0, 0, 1}, {2, 1}, linear_exact),
                 exact_across = arriving({0, 1, 0, 0}, {2, 1}, linear_exact);
     EXPECT_COEFFICIENTS(exact_along, dvec4(0.239943780037, 0, 0, 0.061658794703), 1e-12);
@@ -125,7 +125,7 @@ TEST(PropagatedLight, HasThePublishedConstants) {
     EXPECT_COEFFICIENTS(arriving({1, 0, 0, 0}, {2, 1}, linear_exact), dvec4(1. / 6, 0, 0, 0.036816795778), 1e-12);
 }
 
-/// The mean over a face of the neighbour along z by the midpoint rule: what clamping sees with exact faces.
+/// The mean over a face of the neighbor along z by the midpoint rule: what clamping sees with exact faces.
 struct SummedFace {
     double angle = 0;
     dvec3 directions{0};
@@ -169,13 +169,13 @@ TEST(PropagatedLight, ClampsTheMeanOfAFaceWhereFacesAreExact) {
 TEST(PropagatedLight, OfAnEvenSourceSpreadsAsPublished) {
     const Room room{uvec3(13)};
     const Links links{room.cells};
-    Channel light = next_step(links, room.with({6, 6, 6}, {1, 0, 0, 0}), linear_centre);
+    Channel light = next_step(links, room.with({6, 6, 6}, {1, 0, 0, 0}), linear_center);
     EXPECT_COEFFICIENTS(light[room.at({6, 6, 7})], dvec4(1. / 6, 0, 0, 0.0368167958), 1e-10);
-    light = next_step(links, light, linear_centre);
+    light = next_step(links, light, linear_center);
     EXPECT_NEAR(light[room.at({6, 6, 6})].x, 0.1083424188, 1e-10);
     EXPECT_COEFFICIENTS(light[room.at({6, 6, 8})], dvec4(0.0374984858, 0, 0, 0.0084838867), 1e-10);
     EXPECT_COEFFICIENTS(light[room.at({7, 6, 7})], dvec4(0.0555555556, 0.0083553208, 0, 0.0083553208), 1e-10);
-    for (int i = 2; i < 6; ++i) light = next_step(links, light, linear_centre);
+    for (int i = 2; i < 6; ++i) light = next_step(links, light, linear_center);
     EXPECT_NEAR(held(light), 1, 1e-12);
 }
 
@@ -183,9 +183,9 @@ TEST(PropagatedLight, OfAnEvenSourceSpreadsAsPublished) {
 TEST(PropagatedLight, OfALobeSpreadsAsPublished) {
     const dvec4 lobe(0.2820948, 0, 0, 0.3257350);
     const Travel ahead{2, 1}, aside{0, 1}, behind{2, -1};
-    EXPECT_COEFFICIENTS(arriving(lobe, ahead, linear_centre), dvec4(.13301934, 0, 0, .03115748), 2e-8);
-    EXPECT_COEFFICIENTS(arriving(lobe, aside, linear_centre), dvec4(.04701580, .01038583, 0, .01963417), 2e-8);
-    EXPECT_COEFFICIENTS(arriving(lobe, behind, linear_centre), dvec4(-.03898774, 0, 0, .01038583), 2e-8);
+    EXPECT_COEFFICIENTS(arriving(lobe, ahead, linear_center), dvec4(.13301934, 0, 0, .03115748), 2e-8);
+    EXPECT_COEFFICIENTS(arriving(lobe, aside, linear_center), dvec4(.04701580, .01038583, 0, .01963417), 2e-8);
+    EXPECT_COEFFICIENTS(arriving(lobe, behind, linear_center), dvec4(-.03898774, 0, 0, .01038583), 2e-8);
     const PropagationRule clamped{propagation_clamped, faces_centre}, energy_true{propagation_energy_true, faces_centre};
     EXPECT_EQ(arriving(lobe, behind, clamped), dvec4(0));
     double sum = 0, true_sum = 0;
@@ -208,7 +208,7 @@ double leaving(const Room& room, const Channel& light) {
     for (std::uint32_t i = 0; i < light.size(); ++i) {
         const uvec3 cell(i % room.cells.x, i / room.cells.x % room.cells.y, i / room.cells.x / room.cells.y);
         for (const Travel& way : six_ways)
-            if (cell[way.axis] == (way.sign > 0 ? room.cells[way.axis] - 1 : 0)) sum += arriving(light[i], way, linear_centre).x;
+            if (cell[way.axis] == (way.sign > 0 ? room.cells[way.axis] - 1 : 0)) sum += arriving(light[i], way, linear_center).x;
     }
     return sum;
 }
@@ -223,14 +223,14 @@ TEST(PropagatedLight, IsAbsorbedByTheWallsOfARoom) {
     double absorbed = 0;
     for (int step = 1; step <= 16; ++step) {
         absorbed += leaving(room, light);
-        light = next_step(links, light, linear_centre);
+        light = next_step(links, light, linear_center);
         if (step <= 8) {
             EXPECT_NEAR(held(light), remaining[step - 1], 1e-9) << "after step " << step;
         }
         EXPECT_NEAR(held(light) + absorbed, 1, 1e-12);
     }
     EXPECT_NEAR(held(light), .023083860, 1e-9);
-    const Channel sum = propagated(links, injected, linear_centre, 16);
+    const Channel sum = propagated(links, injected, linear_center, 16);
     EXPECT_NEAR(sum[room.at({1, 1, 1})].x, 1.191701824, 1e-9);
     EXPECT_NEAR(sum[room.at({2, 2, 2})].x, .074755251, 1e-9);
     EXPECT_NEAR(sum[room.at({3, 3, 3})].x, .009297610, 1e-9);
@@ -239,7 +239,7 @@ TEST(PropagatedLight, IsAbsorbedByTheWallsOfARoom) {
 // T5.8. In 32 steps light cannot leave a grid of 41 cells and come back to 8 cells from its middle.
 TEST(PropagatedLight, FallsWithDistanceAsPublished) {
     const Room room{uvec3(41)};
-    const Channel sum = propagated({room.cells}, room.with(uvec3(20), {0.5 / std::sqrt(pi), 0, 0, 0}), linear_centre, 32);
+    const Channel sum = propagated({room.cells}, room.with(uvec3(20), {0.5 / std::sqrt(pi), 0, 0, 0}), linear_center, 32);
     struct Row {
         std::uint32_t r;
         double l0, l1;

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <optional>
 
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
 #include "passes/indirect/lpv/lpv.shared.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/surfaces.h"
@@ -17,7 +20,7 @@ namespace {
 struct Lines {
     const Grid& grid;
     glm::length_t axis, u, v;
-    double texel;  ///< metres
+    double texel;  ///< meters
     glm::dvec3 corner, end;
 
     Lines(const Grid& through, glm::length_t along)

@@ -7,7 +7,6 @@
 
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
 #include "passes/indirect/lpv/grids_model.h"
 
 namespace strata::indirect::in_double {
@@ -16,7 +15,7 @@ struct Surfel {
     glm::dvec3 position{0};   ///< world
     glm::dvec3 normal{0};     ///< outward, unit, as vertices have it
     glm::dvec3 direction{0};  ///< across its triangle, unit, of either side
-    double area = 0;          ///< square metres
+    double area = 0;          ///< square meters
     glm::dvec3 albedo{0};
     bool has_two_sides = false;
 };

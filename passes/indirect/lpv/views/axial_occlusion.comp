@@ -10,7 +10,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push { GridPlace grid; };
 layout(set = 0, binding = 0, rgba32f) uniform image2D picture;
 
-const float off_surface = 0.02;  // metres: of a surface on the border of two cells the one before it
+const float off_surface = 0.02;  // meters: of a surface on the border of two cells the one before it
 
 // Light does not come in over the grid's border: nothing is taken of it there.
 float occluded(ivec3 lower, uint axis) {

@@ -2,11 +2,13 @@
 
 #include <vector>
 
+#include "passes/frame_images.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/indirect/lpv/injection/injection.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
 #include "passes/indirect/lpv/views/views.shared.h"
 #include "passes/indirect/lpv/volumes.h"
+#include "passes/settings.h"
 
 namespace strata::indirect {
 namespace {
@@ -41,7 +43,7 @@ struct Shading {
 /// `light` of each grid: as DeviceGrid::total has it.
 Image spheres(Graph& graph, const FrameImages& frame, const std::vector<DeviceGrid>& grids, const std::vector<Buffer>& light,
               const Shading& shading) {
-    // Of radiance 1 a face of a cell sends as many W/sr as it has square metres.
+    // Of radiance 1 a face of a cell sends as many W/sr as it has square meters.
     const double cell = grids.empty() ? 1 : grids.front().grid.cell;
     DeepPicture picture = backdrop(graph, frame, shading.shown == spheres_sent ? cell * cell : 1);
     if (grids.empty()) return picture.color;

@@ -1,8 +1,15 @@
 // What grids hold, as pictures.
 #pragma once
 
-#include "passes/frame_images.h"
-#include "passes/technique.h"
+#include "passes/graph/step.h"
+
+namespace strata {
+
+class Graph;         // passes/graph/graph.h
+class Settings;      // passes/settings.h
+struct FrameImages;  // passes/frame_images.h
+
+}  // namespace strata
 
 namespace strata::indirect {
 

@@ -2,10 +2,12 @@
 
 #include <vector>
 
+#include "passes/frame_images.h"
 #include "passes/indirect/lpv/injection/bounce.h"
 #include "passes/indirect/lpv/injection/injection.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
 #include "passes/indirect/lpv/volumes.h"
+#include "passes/settings.h"
 
 namespace strata::indirect {
 namespace {

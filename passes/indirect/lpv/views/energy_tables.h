@@ -1,7 +1,15 @@
 // The energy of light in grids, as tables.
 #pragma once
 
-#include "passes/technique.h"
+#include "passes/graph/step.h"
+
+namespace strata {
+
+class Graph;         // passes/graph/graph.h
+class Settings;      // passes/settings.h
+struct FrameImages;  // passes/frame_images.h
+
+}  // namespace strata
 
 namespace strata::indirect {
 

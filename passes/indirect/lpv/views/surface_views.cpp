@@ -4,9 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include "passes/frame_images.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/indirect/lpv/apply/apply.h"
 #include "passes/indirect/lpv/volumes.h"
+#include "passes/settings.h"
 
 namespace strata::indirect {
 namespace {

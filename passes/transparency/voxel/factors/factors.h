@@ -2,7 +2,6 @@
 // (docs/algorithms/transparency.md 6.4). The products become the codes that atomics would have added up.
 #pragma once
 
-#include "passes/frame_images.h"
 #include "passes/transparency/voxel/volume/volume.h"
 
 namespace strata::transparency {

@@ -62,7 +62,7 @@ TEST(VoxelFactor, OfNothingIsFull) {
     }
 }
 
-/// A triangle from depth 1 to depth 9 and a particle at 5 that is sorted half a metre nearer.
+/// A triangle from depth 1 to depth 9 and a particle at 5 that is sorted half a meter nearer.
 Frame tilted_triangle_and_particle() {
     Frame frame = one_pixel(1);
     frame.materials.push_back({.alpha_mode = AlphaMode::blend});

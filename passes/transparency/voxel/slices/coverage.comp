@@ -7,7 +7,7 @@
 
 layout(push_constant, scalar) uniform Push { VoxelPush push; };
 #include "passes/transparency/voxel/slices/coverage.glsl"
-#include "passes/transparency/voxel/thick_events/thickness.glsl"
+#include "passes/transparency/voxel/thick_fragments/thickness.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 3, scalar) buffer Halves { uint halves[]; };

@@ -6,6 +6,7 @@
 #include "passes/depth_range.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/voxel/voxel.shared.h"
+#include "passes/transparency/voxel/voxel_params.h"
 
 namespace strata::transparency {
 
@@ -26,8 +27,8 @@ struct DepthCurve {
 /// where slices are even to 5 % and thinner ones than asked for: n of them would reach farther.
 double linear_of_thickness(double slices, double range, double near_thickness);
 
-/// The depths of the frame's transparent world (what is in no interface layer), wider by half of its deepest event, both in
-/// metres; or, with range=fixed, from the eye to `farthest`.
+/// The depths of the frame's transparent world (what is in no interface layer), wider by half of its deepest fragment, both in
+/// meters; or, with range=fixed, from the eye to `farthest`.
 DepthRange voxel_range(const VoxelParams&, DepthRange world, double deepest, float near);
 
 /// Cut into `slices`; or, where they are adaptive, into as many as 8192 of these that are not thinner than `thinnest`: halves,

@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/ordering.h"
 #include "passes/reference/shade.h"
 #include "passes/reference/triangles.h"
-#include "passes/transparency/voxel/thick_events/segment_model.h"
+#include "passes/transparency/voxel/thick_fragments/segment_model.h"
 
 namespace strata::transparency {
 namespace {

@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "capture_format/frame.h"
 #include "passes/reference/triangles.h"
 #include "passes/transparency/voxel/slices/depth_curve.h"
 

@@ -51,7 +51,7 @@ uint used_word(uint word, uint slices) {
     return used_half_word(int(2u * word)) | used_half_word(int(2u * word) + 1) << 16u;
 }
 
-// Two neighbouring halves become one, of a slice twice as thick.
+// Two neighboring halves become one, of a slice twice as thick.
 uint coarser_word(uint word) {
     const uint low = covered_word(int(2u * word)), high = covered_word(int(2u * word) + 1);
     return even_bits(low | low >> 1u) | even_bits(high | high >> 1u) << 16u;
@@ -69,7 +69,7 @@ void sum_up(uint thread, uint used) {
     }
 }
 
-// Neighbouring slices become one. Leaves what its thread's word uses of them.
+// Neighboring slices become one. Leaves what its thread's word uses of them.
 struct Resolution {
     uint halvings, slices, used;
 };

@@ -5,10 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "capture_format/frame/frame.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/shade.h"
 #include "passes/transparency/voxel/slices/depth_warp_model.h"
-#include "passes/transparency/voxel/thick_events/segment_model.h"
+#include "passes/transparency/voxel/thick_fragments/segment_model.h"
 #include "passes/transparency/voxel/volume/column.h"
 
 namespace strata::transparency {
@@ -87,7 +88,7 @@ struct Tile {
 
 struct MarkedDraw {
     std::uint32_t draw = 0;
-    double half_deep = 0;  ///< metres by which its events reach out of its triangles
+    double half_deep = 0;  ///< meters by which its fragments reach out of its triangles
 };
 
 void take_draw(std::vector<Tile>& tiles, const Frame& frame, const DepthCurve& curve, const MarkedDraw& marked) {

@@ -4,7 +4,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba32f) uniform writeonly image2DArray picture;
-layout(set = 0, binding = 1) uniform usampler2DArray drawn;     // events
+layout(set = 0, binding = 1) uniform usampler2DArray drawn;     // fragments
 layout(set = 0, binding = 2) uniform usampler2DArray shaded;    // of these
 layout(set = 0, binding = 3) uniform sampler2DArray opaque;     // depth
 layout(set = 0, binding = 4) uniform sampler2DArray culling;    // depth
@@ -13,11 +13,11 @@ void main() {
     const ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     const ivec3 size = textureSize(drawn, 0);
     if (any(greaterThanEqual(at, size.xy))) return;
-    uint events = 0u, hidden = 0u;
+    uint fragments = 0u, hidden = 0u;
     for (int s = 0; s < size.z; ++s) {
         const ivec3 texel = ivec3(at, s);
-        events += texelFetch(drawn, texel, 0).r - texelFetch(shaded, texel, 0).r;
+        fragments += texelFetch(drawn, texel, 0).r - texelFetch(shaded, texel, 0).r;
         hidden += texelFetch(culling, texel, 0).r > texelFetch(opaque, texel, 0).r ? 1u : 0u;
     }
-    imageStore(picture, ivec3(at, 0), vec4(events, hidden, 0.0, 1.0));
+    imageStore(picture, ivec3(at, 0), vec4(fragments, hidden, 0.0, 1.0));
 }

@@ -1,7 +1,7 @@
-// For a view: the bits of the least optical depth in front of a pixel's events. T never rises, so it is the nearest's.
+// For a view: the bits of the least optical depth in front of a pixel's fragments. T never rises, so it is the nearest's.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/transparency/event.glsl"
+#include "passes/transparency/fragment.glsl"
 #include "passes/transparency/functions/outputs.glsl"
 #include "passes/transparency/voxel/voxel.shared.h"
 
@@ -12,9 +12,9 @@ layout(early_fragment_tests) in;
 layout(set = 0, binding = 21, r32ui) uniform uimage2DArray least_read;
 
 void main() {
-    const Event event = transparent_event();
-    if (!event.visible) discard;
-    const vec3 through = transmittance_before(event);
+    const Fragment fragment = transparent_fragment();
+    if (!fragment.visible) discard;
+    const vec3 through = transmittance_before(fragment);
     const float t = min(through.r, min(through.g, through.b));
     const float depth = t > 0.0 ? abs(log(t)) : log(float(full_integral()));
     imageAtomicMin(least_read, ivec3(gl_FragCoord.xy, 0), floatBitsToUint(depth));

@@ -1,4 +1,4 @@
-// What the nearest event of each pixel reads in front of itself, where nothing is: of itself, and of what is beside it in its column.
+// What the nearest fragment of each pixel reads in front of itself, where nothing is: of itself, and of what is beside it in its column.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/voxel/views/views.shared.h"

@@ -1,6 +1,7 @@
 #include "passes/transparency/voxel/views/views.h"
 
-#include "passes/transparency/event_draw.h"
+#include "passes/frame_images.h"
+#include "passes/transparency/fragment_draw.h"
 #include "passes/transparency/voxel/volume/dimensions.h"
 #include "passes/transparency/voxel/volume/volume.h"
 
@@ -22,13 +23,13 @@ Image table(Graph& graph, FrameImages& images, const Settings& settings) {
     Volume volume = integrated_volume(graph, images, params);
     Buffer counts = graph.create("slice counts", volume.push.slices * sizeof(SliceCounts));
     graph.clear(counts, 0);
-    ComputePass counting = graph.compute("transparency/voxel/views/slice_counts.comp");
+    ComputeStep counting = graph.compute("transparency/voxel/views/slice_counts.comp");
     look_into(counting, volume, params)
         .updates("Counts", counts)
         .over({volume.push.width, volume.push.height, volume.push.channels});
     const std::uint32_t rows = most_rows(shown, volume.push);
     Image numbers = graph.create("slice table", Shape{.extent = {1, rows}, .format = Format::rgba32f});
-    ComputePass writing = graph.compute("transparency/voxel/views/slice_table.comp");
+    ComputeStep writing = graph.compute("transparency/voxel/views/slice_table.comp");
     read_slices(writing, volume, params).loads("Counts", counts).stores("numbers", numbers).fixes("shown", shown).over({1, rows});
     return numbers;
 }
@@ -38,8 +39,8 @@ Image table(Graph& graph, FrameImages& images, const Settings& settings) {
 Image volume_view(Graph& graph, const FrameImages& images, const VoxelParams& params, std::uint32_t shown) {
     Volume volume = integrated_volume(graph, images, params);
     Image picture = picture_of(graph, images);
-    ComputePass pass = graph.compute("transparency/voxel/views/view.comp");
-    look_into(pass, volume, params)
+    ComputeStep builder = graph.compute("transparency/voxel/views/view.comp");
+    look_into(builder, volume, params)
         .stores("picture", picture)
         .fixes("shown", shown)
         .fixes("shown_slice", params.shown_slice)
@@ -51,8 +52,8 @@ Image volume_view(Graph& graph, const FrameImages& images, const VoxelParams& pa
 Image warp_view(Graph& graph, const FrameImages& images, const VoxelParams& params) {
     const Volume volume = integrated_volume(graph, images, params);
     Image picture = picture_of(graph, images);
-    ComputePass pass = graph.compute("transparency/voxel/views/warp_view.comp");
-    read_slices(pass, volume, params).stores("picture", picture).over(images.extent);
+    ComputeStep builder = graph.compute("transparency/voxel/views/warp_view.comp");
+    read_slices(builder, volume, params).stores("picture", picture).over(images.extent);
     return picture;
 }
 
@@ -61,7 +62,7 @@ Image self_occlusion_view(Graph& graph, const FrameImages& images, const VoxelPa
     Image least = graph.create("least read", Shape{.extent = images.extent, .format = Format::r32ui});
     graph.clear(least, {{double(reads_nothing)}});
     // Against the depth of what is opaque: nothing is culled, what is wholly hidden by itself counts.
-    DrawPass draw = draw_events(graph, "transparency/voxel/views/least_read", drawn_triangles(images, params), images);
+    DrawStep draw = draw_fragments(graph, "transparency/voxel/views/least_read", drawn_triangles(images, params), images);
     read_volume(draw, volume, params, Resolution::full).updates("least_read", least).drops_other_colors();
     Image picture = picture_of(graph, images);
     graph.compute("transparency/voxel/views/self_occlusion_view.comp")

@@ -3,9 +3,10 @@
 
 #include <vector>
 
-#include "passes/technique.h"
+#include "passes/debug_views.h"
+#include "passes/graph/step.h"
 #include "passes/transparency/voxel/views/views.shared.h"
-#include "passes/transparency/voxel/voxel.shared.h"
+#include "passes/transparency/voxel/voxel_params.h"
 
 namespace strata::transparency {
 

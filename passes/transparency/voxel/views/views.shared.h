@@ -29,7 +29,7 @@ struct SliceCounts {
     uint saturated;
 };
 
-// Least optical depth read in pixels without events.
+// Least optical depth read in pixels without fragments.
 const uint reads_nothing = 0xffffffffu;
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// The depth of each pixel's tile in metres.
+// The depth of each pixel's tile in meters.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/shaders/camera.glsl"

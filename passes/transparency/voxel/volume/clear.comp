@@ -16,7 +16,7 @@ layout(set = 0, binding = 20, scalar) buffer Counters { VoxelCounters counters; 
 // How many voxels of a word's slices.
 uint cleared_of(ivec2 column, uint word) {
     uint cleared = 0u;
-    if (is_used(gl_WorkGroupID.xy, word, source_grey)) {
+    if (is_used(gl_WorkGroupID.xy, word, source_gray)) {
         imageStore(voxels, place_of(column, word * slices_per_word), uvec4(0u));
         cleared += slices_per_word;
     }

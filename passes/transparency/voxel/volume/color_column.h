@@ -1,13 +1,18 @@
 // One column of words of three channels, red lowest (docs/algorithms/transparency.md 6.4, RGB 10:10:10), and its merging with
-// what is grey (6.6).
+// what is gray (6.6).
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "capture_format/frame.h"
 #include "passes/transparency/voxel/volume/column.h"
+
+namespace strata {
+
+struct Frame;  // capture_format/frame.h
+
+}  // namespace strata
 
 namespace strata::transparency {
 
@@ -17,10 +22,10 @@ bool packs_colors(const VoxelParams&, std::uint32_t channels);
 /// Codes of 8 bits, of one channel.
 ColumnFormat color_format(const VoxelParams&);
 
-/// From the codes of what is grey to those of colors, in color_scale_one.
-std::uint32_t color_scale(const ColumnFormat& grey);
+/// From the codes of what is gray to those of colors, in color_scale_one.
+std::uint32_t color_scale(const ColumnFormat& gray);
 
-/// source_grey: the draw lets the same of every channel through, as emitters do.
+/// source_gray: the draw lets the same of every channel through, as emitters do.
 std::uint32_t source_of(const Frame&, std::uint32_t submission);
 
 class ColorColumn {
@@ -34,8 +39,8 @@ public:
     glm::uvec3 fields(std::uint32_t slice) const;
     /// The nearest slice in which each channel is known to have exceeded 255; no_overflow.
     glm::uvec3 overflow() const { return overflow_; }
-    /// Inclusive sums up to each slice, at most 255, of this and of what is grey.
-    std::vector<glm::uvec3> integral(const Column& grey) const;
+    /// Inclusive sums up to each slice, at most 255, of this and of what is gray.
+    std::vector<glm::uvec3> integral(const Column& gray) const;
 
 private:
     ColumnFormat format_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <random>
 #include <span>
 
@@ -36,31 +37,31 @@ TEST(VoxelColorColumn, ExceedsAChannelAt256) {
     EXPECT_EQ(column.overflow(), glm::uvec3(no_overflow, 3, no_overflow));
 }
 
-TEST(VoxelColorColumn, AddsWhatIsGreyToEveryChannel) {
+TEST(VoxelColorColumn, AddsWhatIsGrayToEveryChannel) {
     for (const std::uint32_t splat : {splat_wrapping, splat_saturating, splat_overflow_minimum}) {
         const VoxelParams params = packed_params(splat);
-        Column grey(column_format(params));
+        Column gray(column_format(params));
         ColorColumn colors(color_format(params));
-        colors.add(0, {10, 0, 200}), grey.add(1, 60), colors.add(3, {1, 2, 3});
-        EXPECT_EQ(colors.integral(grey), (std::vector{glm::uvec3(10, 0, 200), glm::uvec3(70, 60, 255), glm::uvec3(70, 60, 255),
+        colors.add(0, {10, 0, 200}), gray.add(1, 60), colors.add(3, {1, 2, 3});
+        EXPECT_EQ(colors.integral(gray), (std::vector{glm::uvec3(10, 0, 200), glm::uvec3(70, 60, 255), glm::uvec3(70, 60, 255),
                                                       glm::uvec3(71, 62, 255)}));
     }
 }
 
 TEST(VoxelColorColumn, IsFullWhereEitherSourceOverflows) {
     const VoxelParams params = packed_params(splat_overflow_minimum);
-    Column grey(column_format(params));
+    Column gray(column_format(params));
     ColorColumn colors(color_format(params));
-    colors.add(1, {200, 0, 0}), colors.add(1, {200, 0, 7}), grey.add(2, 255), grey.add(2, 1);
-    EXPECT_EQ(colors.integral(grey), (std::vector{glm::uvec3(0), glm::uvec3(255, 0, 7), glm::uvec3(255), glm::uvec3(255)}));
+    colors.add(1, {200, 0, 0}), colors.add(1, {200, 0, 7}), gray.add(2, 255), gray.add(2, 1);
+    EXPECT_EQ(colors.integral(gray), (std::vector{glm::uvec3(0), glm::uvec3(255, 0, 7), glm::uvec3(255), glm::uvec3(255)}));
 }
 
-TEST(VoxelColorColumn, KeepsThinGreyLayersOfMoreBits) {
+TEST(VoxelColorColumn, KeepsThinGrayLayersOfMoreBits) {
     const VoxelParams params = packed_params(splat_overflow_minimum, bits_16);
     const ColumnFormat format = column_format(params);
-    Column grey(format);
-    for (int i = 0; i < 200; ++i) grey.add(0, split_code(format, {}, format.codes(-std::log1p(-.01)), .5).nearer);
-    const glm::uvec3 sum = ColorColumn(color_format(params)).integral(grey)[0];
+    Column gray(format);
+    for (int i = 0; i < 200; ++i) gray.add(0, split_code(format, {}, format.codes(-std::log1p(-.01)), .5).nearer);
+    const glm::uvec3 sum = ColorColumn(color_format(params)).integral(gray)[0];
     EXPECT_EQ(sum, glm::uvec3(92));  // of 2.01 in steps of .0217; one by one of 8 bits they would be 0
     EXPECT_NEAR(color_format(params).transmittance(sum.x), .134, .0015);
     for (const std::uint32_t bits : {bits_8, bits_10, bits_16, bits_32})

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "passes/transparency/voxel/voxel.shared.h"
+#include "passes/transparency/voxel/voxel_params.h"
 
 namespace strata::transparency {
 
@@ -38,7 +39,7 @@ struct SlicePlace {
 /// Point: the slice that contains s. Linear: by the distance to slices' centers; half a slice from the volume's ends all to one.
 SlicePlace slice_place(double s, std::uint32_t slices, std::uint32_t splatting);
 
-/// Integers for two neighbouring slices. They add up to the code that is not split: rounding both would lose more.
+/// Integers for two neighboring slices. They add up to the code that is not split: rounding both would lose more.
 struct SplitCode {
     std::uint32_t slice = 0, nearer = 0, farther = 0;
 };
@@ -66,7 +67,7 @@ private:
     std::uint32_t overflow_ = no_overflow;
 };
 
-/// How far in front of itself an event reads the integral, in slices: the least at which it does not hide itself, with point
+/// How far in front of itself a fragment reads the integral, in slices: the least at which it does not hide itself, with point
 /// splats and samples, and with linear ones; with bicubic samples of linear splats it hides .11 % of itself.
 double sampling_bias(std::uint32_t sampling);
 

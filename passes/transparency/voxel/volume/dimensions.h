@@ -2,8 +2,16 @@
 // own.
 #pragma once
 
-#include "passes/technique.h"
+#include "passes/graph/step.h"
 #include "passes/transparency/voxel/voxel.shared.h"
+#include "passes/transparency/voxel/voxel_params.h"
+
+namespace strata {
+
+class Features;  // capture_format/frame_features.h
+class Settings;  // passes/settings.h
+
+}  // namespace strata
 
 namespace strata::transparency {
 

@@ -1,4 +1,4 @@
-// Turns words of three channels into inclusive sums, in place, of what has a color and of what is grey
+// Turns words of three channels into inclusive sums, in place, of what has a color and of what is gray
 // (docs/algorithms/transparency.md 6.6). One thread per column, a group for each tile; see integrate.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -16,7 +16,7 @@ layout(set = 0, binding = 20, scalar) buffer Counters { VoxelCounters counters; 
 #include "passes/transparency/voxel/volume/count_column.glsl"
 
 struct Sums {
-    uint grey;    // in codes of push.full_code
+    uint gray;    // in codes of push.full_code
     uvec3 color;  // what has one
 };
 
@@ -24,12 +24,12 @@ bool is_full(uvec3 sum) { return all(equal(sum, uvec3(color_full_code))); }
 
 // Codes of many bits become few once they are summed up: thin layers are not lost.
 uvec3 total(Sums sums) {
-    const uint grey = (sums.grey * push.color_scale + color_scale_one / 2u) / color_scale_one;
-    return min(sums.color + grey, color_full_code);
+    const uint gray = (sums.gray * push.color_scale + color_scale_one / 2u) / color_scale_one;
+    return min(sums.color + gray, color_full_code);
 }
 
-void add(inout Sums sums, uint grey, uvec3 color) {
-    sums.grey += min(grey, push.full_code - sums.grey);
+void add(inout Sums sums, uint gray, uvec3 color) {
+    sums.gray += min(gray, push.full_code - sums.gray);
     sums.color += min(color, color_full_code - sums.color);
 }
 
@@ -43,11 +43,11 @@ void main() {
     for (uint block = 0u; block < (push.words + 31u) / 32u; ++block)
         for (uint bits = used_words(gl_WorkGroupID.xy, block); bits != 0u; bits &= bits - 1u) {
             const uint word = 32u * block + uint(findLSB(bits));
-            const bool grey = is_used(gl_WorkGroupID.xy, word, source_grey), colors = is_used(gl_WorkGroupID.xy, word, source_color);
+            const bool gray = is_used(gl_WorkGroupID.xy, word, source_gray), colors = is_used(gl_WorkGroupID.xy, word, source_color);
             const uint first = word * slices_per_word, end = min(first + slices_per_word, push.slices);
             const bool full = is_full(total(sums));
-            const uint extinction = grey && !full ? imageLoad(voxels, place_of(ivec2(texel), first)).r : 0u;
-            if (!full) integrated += (grey ? slices_per_word : 0u) + (colors ? end - first : 0u);
+            const uint extinction = gray && !full ? imageLoad(voxels, place_of(ivec2(texel), first)).r : 0u;
+            if (!full) integrated += (gray ? slices_per_word : 0u) + (colors ? end - first : 0u);
             for (uint slice = first; slice < end; ++slice) {
                 const ivec3 at = ivec3(texel, slice);
                 const uvec3 codes = color_fields(colors && !full ? imageLoad(voxels, at).r : 0u);

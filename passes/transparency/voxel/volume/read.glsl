@@ -1,11 +1,11 @@
 // T(z) = M^-I from the integral of the columns around a fragment, a little in front of it (docs/algorithms/transparency.md 6.7).
 // Filtered here and not by a sampler: hardware's weights have 8 bits, which would be 1.1 % of T for each step of the integral. A
-// shader that includes this includes event.glsl and functions/outputs.glsl and declares `VoxelPush push` in its push constants
+// shader that includes this includes fragment.glsl and functions/outputs.glsl and declares `VoxelPush push` in its push constants
 // first.
 #ifndef PASSES_TRANSPARENCY_VOXEL_READ_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_READ_GLSL
 #include "passes/transparency/voxel/volume/voxels.glsl"
-#include "passes/transparency/voxel/thick_events/segment.glsl"
+#include "passes/transparency/voxel/thick_fragments/segment.glsl"
 
 layout(constant_id = 12) const uint sampling = sampling_linear;
 layout(constant_id = 13) const uint filters = 1u;  // 0 where columns are pixels
@@ -81,7 +81,7 @@ vec3 transmittance(vec3 codes) {
     return push.channels == 1u ? vec3(red) : vec3(red, transmittance(codes.g), transmittance(codes.b));
 }
 
-// An integral up to a virtual slice, less what the event itself added to it. What is full stays full: who filled it is not known.
+// An integral up to a virtual slice, less what the fragment itself added to it. What is full stays full: who filled it is not known.
 vec3 without_own(vec3 sum, Segment segment, int slice, vec3 codes, float r) {
     vec3 own = vec3(0.0);
     for (uint channel = 0u; channel < push.channels; ++channel)
@@ -91,10 +91,10 @@ vec3 without_own(vec3 sum, Segment segment, int slice, vec3 codes, float r) {
 }
 
 // Behind the volume what is at its end.
-vec3 transmittance_at(Event event) {
-    const float at = slice_of_depth(event.z) + push.bias;
-    const Segment segment = segment_at(event.z);
-    const vec3 own = grey_codes(event);
+vec3 transmittance_at(Fragment fragment) {
+    const float at = slice_of_depth(fragment.z) + push.bias;
+    const Segment segment = segment_at(fragment.z);
+    const vec3 own = gray_codes(fragment);
     const float r = rounded_up_by(texel_under(uvec2(push.width, push.height)));
     const float center = sampling == sampling_point ? at : at - 0.5, k = floor(center);
     const float first = sampling == sampling_bicubic ? k - 1.0 : k;
@@ -104,7 +104,7 @@ vec3 transmittance_at(Event event) {
     for (uint i = 0u; i < values_read; ++i) {
         const int slice = int(first) + int(i);
         const vec3 sum = integral_at(around, physical_slice(slice));
-        codes += weight[i] * (segment.metres > 0.0 ? without_own(sum, segment, slice, own, r) : sum);
+        codes += weight[i] * (segment.meters > 0.0 ? without_own(sum, segment, slice, own, r) : sum);
     }
     return transmittance(codes);
 }
@@ -112,9 +112,9 @@ vec3 transmittance_at(Event event) {
 // Not filtered in depth: layers do not share slices.
 vec3 transmittance_before(uint layer) { return transmittance(integral_at(corners(), slice_of_layer(layer) - 1)); }
 
-vec3 transmittance_before(Event event) {
+vec3 transmittance_before(Fragment fragment) {
     const uint layer = interface_layer();
-    return layer > 0u ? transmittance_before(layer) : transmittance_at(event);
+    return layer > 0u ? transmittance_before(layer) : transmittance_at(fragment);
 }
 
 #endif

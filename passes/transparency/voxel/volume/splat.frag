@@ -2,13 +2,13 @@
 // There is no atomic multiplication, hence logarithms; integers add up to the same in any order.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/transparency/event.glsl"
+#include "passes/transparency/fragment.glsl"
 #include "passes/transparency/voxel/voxel.shared.h"
 
 layout(push_constant, scalar) uniform Push { VoxelPush push; };
 #include "passes/transparency/voxel/sources.glsl"
 #include "passes/transparency/voxel/volume/voxels.glsl"
-#include "passes/transparency/voxel/thick_events/segment.glsl"
+#include "passes/transparency/voxel/thick_fragments/segment.glsl"
 
 layout(early_fragment_tests) in;
 layout(set = 0, binding = 10, r32ui) uniform uimage2DArray voxels;
@@ -111,8 +111,8 @@ bool is_covered(int first, int last) {
 }
 
 // Two slices at a time: they are most often in one word.
-void add_segment(Segment segment, uvec2 texel, Event event) {
-    const vec3 codes = grey_codes(event);
+void add_segment(Segment segment, uvec2 texel, Fragment fragment) {
+    const vec3 codes = gray_codes(fragment);
     const float r = rounded_up_by(texel);
     const uint first = uint(physical_slice(segment.first));
     for (uint channel = 0u; channel < (packs_colors != 0u ? 1u : push.channels); ++channel) {
@@ -127,16 +127,16 @@ void add_segment(Segment segment, uvec2 texel, Event event) {
 }
 
 void main() {
-    const Event event = transparent_event();
-    if (!event.visible) discard;
+    const Fragment fragment = transparent_fragment();
+    if (!fragment.visible) discard;
     const uvec2 texel = uvec2(gl_FragCoord.xy);
-    const Segment segment = segment_at(event.z);
-    if (segment.metres > 0.0) {
-        if (is_covered(segment.first, segment.last)) add_segment(segment, texel, event);
+    const Segment segment = segment_at(fragment.z);
+    if (segment.meters > 0.0) {
+        if (is_covered(segment.first, segment.last)) add_segment(segment, texel, fragment);
         else atomicAdd(counters.uncovered, 1u);
         return;
     }
-    const float s = slice_of_depth(event.z), r = rounded_up_by(texel);
+    const float s = slice_of_depth(fragment.z), r = rounded_up_by(texel);
     const float center = clamp(splatting == splatting_linear ? s - 0.5 : floor(s), 0.0, float(virtual_slices()) - 1.0);
     const bool in_world = interface_layer() == 0u;
     const float share = in_world ? center - floor(center) : 0.0;
@@ -150,7 +150,7 @@ void main() {
     const float per_depth = colored ? push.color_codes_per_depth : push.codes_per_depth;
     uvec2 codes[3];
     for (uint channel = 0u; channel < channels; ++channel) {
-        const float tau = channel_depth(event.t, push.channels == 1u ? luminance_channel : channel);
+        const float tau = channel_depth(fragment.t, push.channels == 1u ? luminance_channel : channel);
         codes[channel] = split_code(tau * per_depth, full_code, share, r);
         if (!colored) add(column_of(texel, channel), slice, codes[channel]);
     }

@@ -8,7 +8,7 @@
 layout(push_constant, scalar) uniform Push { VoxelPush push; };
 #include "passes/transparency/voxel/slices/coverage.glsl"
 #include "passes/transparency/voxel/sources.glsl"
-#include "passes/transparency/voxel/thick_events/thickness.glsl"
+#include "passes/transparency/voxel/thick_fragments/thickness.glsl"
 #include "passes/transparency/voxel/volume/tiles.glsl"
 
 layout(local_size_x = 32) in;
@@ -95,7 +95,7 @@ void mark(uvec2 tile, uint source, vec2 depths) {
 
 void main() {
     const DrawCommand command = commands[first_command + gl_WorkGroupID.y];
-    const uint source = packs_colors != 0u ? source_of(command.first_instance) : source_grey;
+    const uint source = packs_colors != 0u ? source_of(command.first_instance) : source_gray;
     const uint layer = draws[command.first_instance].layer;
     const float half_deep = 0.5 * thickness_of(command.first_instance);
     for (uint i = gl_WorkGroupID.x; i < command.index_count / 3u; i += gl_NumWorkGroups.x) {

@@ -24,13 +24,13 @@ uint used_words(uvec2 tile, uint block) {
     if (sparse != 0u) return bits_in_pool(tile, block);
     const uint left = push.words - 32u * block;
     if (skips == 0u) return left < 32u ? (1u << left) - 1u : 0xffffffffu;
-    uint bits = tile_bits[first_bits_of(tile, source_grey) + block];
+    uint bits = tile_bits[first_bits_of(tile, source_gray) + block];
     if (packs_colors != 0u) bits |= tile_bits[first_bits_of(tile, source_color) + block];
     return bits;
 }
 
 bool is_used(uvec2 tile, uint word) {
-    return is_used(tile, word, source_grey) || packs_colors != 0u && is_used(tile, word, source_color);
+    return is_used(tile, word, source_gray) || packs_colors != 0u && is_used(tile, word, source_color);
 }
 
 #endif

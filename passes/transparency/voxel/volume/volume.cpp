@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/particles.h"
 #include "passes/scene/scene_facts.h"
-#include "passes/transparency/event_draw.h"
+#include "passes/transparency/fragment_draw.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/voxel/factors/factors.h"
 #include "passes/transparency/voxel/slices/depth_curve.h"
@@ -50,45 +52,45 @@ Buffer zeros(Graph& graph, const char* name, std::uint64_t words) {
 }
 
 /// To a step that knows where slices are.
-template <typename Pass>
-Pass& bind_warp(const Volume& volume, const VoxelParams& params, Pass&& pass) {
-    return pass.loads("DepthWarp", volume.warp)
+template <typename Builder>
+Builder& bind_warp(const Volume& volume, const VoxelParams& params, Builder&& builder) {
+    return builder.loads("DepthWarp", volume.warp)
         .fixes("adaptive", flag(is_adaptive(params)))
         .fixes("sparse", flag(is_sparse(params)));
 }
 
 /// To a step that knows how slices lie in words.
-template <typename Pass>
-Pass& bind_format(const Volume& volume, Pass&& pass) {
-    return pass.fixes("field_bits", volume.field_bits).fixes("packs_colors", flag(volume.packs)).push(volume.push);
+template <typename Builder>
+Builder& bind_format(const Volume& volume, Builder&& builder) {
+    return builder.fixes("field_bits", volume.field_bits).fixes("packs_colors", flag(volume.packs)).push(volume.push);
 }
 
 /// To a step that knows what is in a column.
-template <typename Pass>
-Pass& bind_columns(Volume& volume, const VoxelParams& params, Pass&& pass) {
-    return bind_format(volume, pass).updates("Overflow", volume.overflow).fixes("splat", params.splat);
+template <typename Builder>
+Builder& bind_columns(Volume& volume, const VoxelParams& params, Builder&& builder) {
+    return bind_format(volume, builder).updates("Overflow", volume.overflow).fixes("splat", params.splat);
 }
 
 /// To a step over tiles of columns.
-ComputePass& bind_tiles(Volume& volume, const VoxelParams& params, ComputePass& pass) {
-    return bind_warp(volume, params, bind_columns(volume, params, pass))
+ComputeStep& bind_tiles(Volume& volume, const VoxelParams& params, ComputeStep& builder) {
+    return bind_warp(volume, params, bind_columns(volume, params, builder))
         .updates("Tiles", volume.tiles)
         .fixes("skips", flag(skips(params)));
 }
 
 /// A step with a row of groups for each transparent draw, each for so many of its triangles at a time.
-ComputePass over_triangles(Graph& graph, const FrameImages& images, const char* shader, std::uint32_t triangles_per_group) {
+ComputeStep over_triangles(Graph& graph, const FrameImages& images, const char* shader, std::uint32_t triangles_per_group) {
     std::uint32_t most = 1;
     for (const std::uint32_t index : images.facts->lists().transparent)
         most = std::max(most, triangles_drawn(*images.recorded, index));
     const std::uint32_t groups = std::min((most + triangles_per_group - 1) / triangles_per_group, 1024u);
     const DrawList& list = images.transparent;
-    ComputePass pass = graph.compute(shader);
-    pass.loads("Commands", list.commands)
+    ComputeStep builder = graph.compute(shader);
+    builder.loads("Commands", list.commands)
         .loads("Indices", list.indices)
         .fixes("first_command", list.first)
         .groups({groups, std::max(list.count, 1u), 1});
-    return pass;
+    return builder;
 }
 
 void find_slices(Graph& graph, const FrameImages& images, const VoxelParams& params, Volume& volume) {
@@ -110,8 +112,8 @@ void find_slices(Graph& graph, const FrameImages& images, const VoxelParams& par
 }
 
 void find_tiles(Graph& graph, const FrameImages& images, const VoxelParams& params, Volume& volume) {
-    ComputePass pass = over_triangles(graph, images, "transparency/voxel/volume/tiles.comp", 1);
-    bind_warp(volume, params, bind_format(volume, pass))
+    ComputeStep builder = over_triangles(graph, images, "transparency/voxel/volume/tiles.comp", 1);
+    bind_warp(volume, params, bind_format(volume, builder))
         .updates("Tiles", volume.tiles)
         .fixes("thickness", volume.thickness)
         .fixes("splatting", params.splatting)
@@ -190,20 +192,20 @@ void create_parts(Graph& graph, const VoxelParams& params, Volume& volume) {
     volume.zero_slices = graph.create("zero slices", words_of(push.channels, 1));
 }
 
-DrawPass events_of_columns(Graph& graph, const FrameImages& images, const VoxelParams& params, std::uint32_t divisor) {
+DrawStep fragments_of_columns(Graph& graph, const FrameImages& images, const VoxelParams& params, std::uint32_t divisor) {
     const std::string shader = "transparency/voxel/volume/splat";
     if (images.depth) {
         const FrameImages low = prepass_images(graph, images, divisor);
-        return draw_events(graph, shader, drawn_triangles(low, params), low);
+        return draw_fragments(graph, shader, drawn_triangles(low, params), low);
     }
     FrameImages low = images;
     low.extent = prepass_extent(images.extent, divisor);
     low.samples = 1;
-    return draw_events_untested(graph, shader, drawn_triangles(low, params), low).within(low.extent);
+    return draw_fragments_untested(graph, shader, drawn_triangles(low, params), low).within(low.extent);
 }
 
 void splat_codes(Graph& graph, const FrameImages& images, const VoxelParams& params, Volume& volume) {
-    bind_warp(volume, params, bind_columns(volume, params, events_of_columns(graph, images, params, volume.divisor)))
+    bind_warp(volume, params, bind_columns(volume, params, fragments_of_columns(graph, images, params, volume.divisor)))
         .updates("voxels", volume.voxels)
         .fixes("thickness", volume.thickness)
         .fixes("splatting", params.splatting)
@@ -234,11 +236,11 @@ Volume integrated_volume(Graph& graph, const FrameImages& images, const VoxelPar
     if (finds) find_slices(graph, images, params, volume);
     if (skips(params)) find_tiles(graph, images, params, volume);
     if (is_sparse(params)) give_blocks(graph, params, volume);
-    ComputePass clear = graph.compute("transparency/voxel/volume/clear.comp");
+    ComputeStep clear = graph.compute("transparency/voxel/volume/clear.comp");
     bind_tiles(volume, params, clear).stores("voxels", volume.voxels).over(columns);
     if (params.splat == splat_multiply) splat_factors(graph, prepass_images(graph, images, volume.divisor), params, volume);
     else splat_codes(graph, images, params, volume);
-    ComputePass integrate = graph.compute(volume.packs ? "transparency/voxel/volume/integrate_colors.comp"
+    ComputeStep integrate = graph.compute(volume.packs ? "transparency/voxel/volume/integrate_colors.comp"
                                                        : "transparency/voxel/volume/integrate.comp");
     bind_tiles(volume, params, integrate)
         .updates("voxels", volume.voxels)
@@ -247,7 +249,7 @@ Volume integrated_volume(Graph& graph, const FrameImages& images, const VoxelPar
     return volume;
 }
 
-DrawPass& read_volume(DrawPass& draw, const Volume& volume, const VoxelParams& params, Resolution drawn) {
+DrawStep& read_volume(DrawStep& draw, const Volume& volume, const VoxelParams& params, Resolution drawn) {
     return bind_warp(volume, params, bind_format(volume, draw))
         .samples("voxels", volume.voxels)
         .fixes("filters", flag(volume.divisor > 1 || drawn == Resolution::low))
@@ -257,8 +259,8 @@ DrawPass& read_volume(DrawPass& draw, const Volume& volume, const VoxelParams& p
         .fixes("rounding", params.rounding);
 }
 
-ComputePass& read_slices(ComputePass& pass, const Volume& volume, const VoxelParams& params) {
-    return bind_warp(volume, params, pass).push(volume.push);
+ComputeStep& read_slices(ComputeStep& builder, const Volume& volume, const VoxelParams& params) {
+    return bind_warp(volume, params, builder).push(volume.push);
 }
 
 double slices_to_zero(const VoxelParams& params) {
@@ -266,8 +268,8 @@ double slices_to_zero(const VoxelParams& params) {
     return by_sampling[params.sampling] - double(params.shift);
 }
 
-ComputePass& look_into(ComputePass& pass, Volume& volume, const VoxelParams& params) {
-    return bind_tiles(volume, params, pass).samples("voxels", volume.voxels);
+ComputeStep& look_into(ComputeStep& builder, Volume& volume, const VoxelParams& params) {
+    return bind_tiles(volume, params, builder).samples("voxels", volume.voxels);
 }
 
 }  // namespace strata::transparency

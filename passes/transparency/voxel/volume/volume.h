@@ -3,9 +3,19 @@
 
 #include <cstdint>
 
-#include "passes/frame_images.h"
-#include "passes/graph/graph.h"
+#include "capture_format/frame/draw.h"
+#include "passes/graph/step.h"
 #include "passes/transparency/voxel/voxel.shared.h"
+#include "passes/transparency/voxel/voxel_params.h"
+
+namespace strata {
+
+class ComputeStep;   // passes/graph/graph.h
+class DrawStep;      // passes/graph/graph.h
+class Graph;         // passes/graph/graph.h
+struct FrameImages;  // passes/frame_images.h
+
+}  // namespace strata
 
 namespace strata::transparency {
 
@@ -18,7 +28,7 @@ struct Volume {
         zero_slices;  ///< r32ui, of each column and channel: the first slice that is full, by its physical number, or no_overflow
     std::uint32_t divisor = 8, field_bits = 8;
     bool packs = false;           ///< colors, three to a word
-    std::uint32_t thickness = 0;  ///< thickness_segment where any event is thick
+    std::uint32_t thickness = 0;  ///< thickness_segment where any fragment is thick
     VoxelPush push;
 };
 
@@ -33,14 +43,14 @@ Volume earlier_volume(const Graph&, const FrameImages&, const VoxelParams&);
 const DrawList& drawn_triangles(const FrameImages&, const VoxelParams&);
 
 /// To a step that reads the integral at fragments' depths, and to one that knows slices' depths.
-DrawPass& read_volume(DrawPass&, const Volume&, const VoxelParams&, Resolution drawn);
-ComputePass& read_slices(ComputePass&, const Volume&, const VoxelParams&);
+DrawStep& read_volume(DrawStep&, const Volume&, const VoxelParams&, Resolution drawn);
+ComputeStep& read_slices(ComputeStep&, const Volume&, const VoxelParams&);
 
 /// From the integral being full in a slice to all that a filtered read weighs being full, in slices
 /// (docs/algorithms/transparency.md 6.9).
 double slices_to_zero(const VoxelParams&);
 
 /// To a step that looks at what is in columns: integral, overflows, tiles.
-ComputePass& look_into(ComputePass&, Volume&, const VoxelParams&);
+ComputeStep& look_into(ComputeStep&, Volume&, const VoxelParams&);
 
 }  // namespace strata::transparency

@@ -1,5 +1,5 @@
 // The volume as words: fields of slices, nearest lowest. Words are texels of an image: layer = word of a column, channels one below
-// the other. Where colors are packed, layers are slices, words of three channels, and behind them lie the words of what is grey.
+// the other. Where colors are packed, layers are slices, words of three channels, and behind them lie the words of what is gray.
 // A shader that includes this declares `VoxelPush push` in its push constants first.
 #ifndef PASSES_TRANSPARENCY_VOXEL_VOXELS_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_VOXELS_GLSL
@@ -39,7 +39,7 @@ uint integral_code(uint word, uint channel, uint slice) {
     return packs_colors != 0u ? color_fields(word)[channel] : field(word, shift_of(slice));
 }
 
-// Where colors are packed, of what is grey or of the channel.
+// Where colors are packed, of what is gray or of the channel.
 uint overflow_of(uvec2 texel, uint channel) {
     if (splat != splat_overflow_minimum) return no_overflow;
     if (packs_colors == 0u) return nearest_overflow[index_of(column_of(texel, channel))];

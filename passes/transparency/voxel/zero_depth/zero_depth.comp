@@ -42,7 +42,7 @@ uint farthest_here() {
 float device_depth(uint slice) {
     if (slice == no_overflow) return 0.0;
     const float s = float(virtual_slice(slice)) + slices_to_zero + slice_margin;
-    if (s > float(virtual_slices()) - end_margin) return 0.0;  // where events behind the volume are, too
+    if (s > float(virtual_slices()) - end_margin) return 0.0;  // where fragments behind the volume are, too
     return min(view.near / ((1.0 + depth_margin) * depth_of_slice(max(s, 0.0)) + farthest_offset), 1.0);
 }
 

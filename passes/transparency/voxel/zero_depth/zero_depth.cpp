@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <string>
 
+#include "passes/frame_images.h"
 #include "passes/scene/scene_facts.h"
-#include "passes/transparency/event_draw.h"
+#include "passes/transparency/fragment_draw.h"
 #include "passes/transparency/voxel/zero_depth/zero_depth.shared.h"
 
 namespace strata::transparency {
@@ -27,8 +28,8 @@ ZeroTiles zero_tiles(Graph& graph, const FrameImages& images, const Volume& volu
                    .draw = graph.create("zero draw", sizeof(ZeroDraw)),
                    .edge = edge};
     graph.clear(zero.draw, 0);
-    ComputePass pass = graph.compute("transparency/voxel/zero_depth/zero_depth.comp");
-    read_slices(pass, volume, params)
+    ComputeStep builder = graph.compute("transparency/voxel/zero_depth/zero_depth.comp");
+    read_slices(builder, volume, params)
         .samples("zero_slices", volume.zero_slices)
         .stores("zero_depth", zero.depth)
         .stores("Quads", zero.quads)
@@ -58,11 +59,11 @@ void draw_zero_depth(Graph& graph, Image& depth, const ZeroTiles& zero, const Vo
     }
 }
 
-Image counted_events(Graph& graph, const FrameImages& images, const std::string& name) {
+Image counted_fragments(Graph& graph, const FrameImages& images, const std::string& name) {
     Image layers = graph.create(name, Shape{.extent = images.extent, .format = Format::r32ui, .layers = images.samples});
     graph.clear(layers, {});
     for (const DrawList& list : drawn_at(images, Resolution::full))
-        draw_events(graph, "transparency/count_layers", list, images).updates("layers", layers);
+        draw_fragments(graph, "transparency/count_layers", list, images).updates("layers", layers);
     return layers;
 }
 
@@ -109,7 +110,8 @@ Image zero_depth_view(Graph& graph, const FrameImages& images, const VoxelParams
 Image culled_view(Graph& graph, const FrameImages& images, const VoxelParams& params) {
     FrameImages culled = images;
     culled.depth = culled_depth(graph, images, integrated_volume(graph, images, params), params);
-    const Image drawn = counted_events(graph, images, "events drawn"), shaded = counted_events(graph, culled, "events shaded");
+    const Image drawn = counted_fragments(graph, images, "fragments drawn"),
+                shaded = counted_fragments(graph, culled, "fragments shaded");
     const Image depth = spread(graph, culled.depth, "depth that culls, by sample");
     Image picture = graph.create("culled view", Shape{.extent = images.extent, .format = Format::rgba32f});
     graph.compute("transparency/voxel/views/culled_view.comp")

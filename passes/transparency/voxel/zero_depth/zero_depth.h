@@ -1,12 +1,17 @@
 // Where nothing is seen any more, tile by tile, and opaque depth that says so: what is behind is not shaded
-// (docs/algorithms/transparency.md 6.9). The picture does not change by a bit: an event whose T(z) is 0 in all channels adds
+// (docs/algorithms/transparency.md 6.9). The picture does not change by a bit: a fragment whose T(z) is 0 in all channels adds
 // nothing, drawn or not.
 #pragma once
 
-#include "passes/frame_images.h"
-#include "passes/graph/graph.h"
 #include "passes/transparency/voxel/volume/volume.h"
 #include "passes/transparency/voxel/voxel.shared.h"
+#include "passes/transparency/voxel/voxel_params.h"
+
+namespace strata {
+
+class Features;  // capture_format/frame_features.h
+
+}  // namespace strata
 
 namespace strata::transparency {
 
@@ -24,7 +29,7 @@ Image depth_to_draw_opaque_into(Graph&, const FrameImages&, const Volume&, const
 /// That depth, after the opaque draws.
 Image earlier_culled_depth(const Graph&);
 
-/// The depth of each pixel's tile in metres, 0 where all that is drawn is seen.
+/// The depth of each pixel's tile in meters, 0 where all that is drawn is seen.
 Image zero_depth_view(Graph&, const FrameImages&, const VoxelParams&);
 
 /// Fragments per pixel that culling keeps from being shaded, and samples of whose opaque surface nothing is seen, in red and

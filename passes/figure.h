@@ -1,0 +1,31 @@
+// What a stage is judged by.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "passes/image_set.h"
+
+namespace strata {
+
+struct StageInput;  // passes/stage_input.h
+
+/// One named number with its unit; smaller is better. The first figure of a judge is the stage's error.
+struct Metric {
+    std::string name, unit;
+    double value = 0;
+    bool is_detail = false;  ///< left out of tables for people
+};
+
+using Truth = ImageSet (*)(const StageInput&);
+using Judge = std::vector<Metric> (*)(const ImageSet& result, const ImageSet& truth, const StageInput&);
+
+/// What techniques approximate: the stage's truth, or at some of their settings another one.
+struct TruthRow {
+    std::string_view name = {};  ///< empty: the stage's truth
+    Truth make = nullptr;
+    std::string_view is = "exact, in double";  ///< how far a person may trust it
+};
+
+}  // namespace strata

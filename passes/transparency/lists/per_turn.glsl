@@ -1,8 +1,0 @@
-// Fragments that a loop over a list takes per turn: the inner loop is unrolled, which is what saves turns (passes/shaders/finished.glsl).
-#ifndef PASSES_TRANSPARENCY_LISTS_PER_TURN_GLSL
-#define PASSES_TRANSPARENCY_LISTS_PER_TURN_GLSL
-#extension GL_EXT_control_flow_attributes : require
-
-layout(constant_id = 20) const uint per_turn = 1u;
-
-#endif

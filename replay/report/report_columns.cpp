@@ -1,0 +1,321 @@
+#include "replay/report/report_columns.h"
+
+#include <algorithm>
+#include <array>
+
+#include "replay/report/variants.h"
+
+namespace strata {
+namespace {
+
+using Row = Measurement;
+using Of = Column<Row>::Of;
+using ColumnsOfRows = std::vector<Column<Row>>;
+
+/// What errors mean, whichever stage's judge has them.
+struct FigureHelp {
+    std::string_view name, help;
+    Better better = Better::less;
+};
+constexpr std::array metric_helps{
+    FigureHelp{
+        "relative rmse",
+        "root mean square of the error over the color channels, divided by that of the truth; in `diff` by that of A, named "
+        "first; in expectations by that of the stored image"},
+    FigureHelp{"rmse", "root mean square of the error"},
+    FigureHelp{"worst", "largest error of a sample"},
+    FigureHelp{"bias", "mean error, negative: too dark", Better::nearer_zero},
+    FigureHelp{"P95", "relative error that 5 % of the samples exceed"},
+    FigureHelp{"P99", "relative error that 1 % of the samples exceed"},
+    FigureHelp{"over 10 %", "percentage of samples with a relative error above 10 %"},
+    FigureHelp{"FLIP", "mean perceived difference, 0 to 1"}};
+
+std::string with_unit(const std::string& title, const std::string& unit) {
+    return unit.empty() ? title : fmt::format("{} {}", title, unit);
+}
+
+Column<Row> metric_column(const Metric& metric) {
+    const auto* known = std::ranges::find(metric_helps, metric.name, &FigureHelp::name);
+    const bool is_known = known != metric_helps.end();
+    const unsigned in_tables = in_csv | in_window | (metric.is_detail ? 0u : unsigned{in_text});
+    return {{.key = metric.name,
+             .title = with_unit(metric.name, metric.unit),
+             .help = is_known ? std::string(known->help) : "",
+             .better = is_known ? known->better : Better::less,
+             .shown = in_tables,  // JSON has them in technique_error, with their units
+             .unit = metric.unit,
+             .short_title = metric.name,
+             .label = metric.unit.empty() ? metric.name : fmt::format("{} ({})", metric.name, metric.unit),
+             .role = Role::error,
+             .is_detail = metric.is_detail},
+            [name = metric.name](const Row& row) -> CellValue {
+                for (const Metric& own : errors_of(row))
+                    if (own.name == name) return own.value;
+                return {};
+            }};
+}
+
+ColumnsOfRows names() {
+    return {{{.key = "technique", .title = "technique", .help = "stage and technique", .kind = CellKind::text, .shown = in_files},
+             [](const Row& row) { return row.technique; },
+             Of::every_row},
+            {{.key = "settings",
+              .title = "settings",
+              .help = "what differs from the technique's defaults",
+              .kind = CellKind::text,
+              .shown = in_files},
+             [](const Row& row) { return row.settings; },
+             Of::every_row}};
+}
+
+ColumnsOfRows errors(const Report& report) {
+    ColumnsOfRows columns;
+    if (const Row* first = first_measured(report))
+        for (const Metric& metric : errors_of(*first)) columns.push_back(metric_column(metric));
+    columns.push_back({{.key = "ranking_error",
+                        .title = ranking_name(report),
+                        .help = "error over the samples that the stage changes, where these are not all; rows are ranked by it",
+                        .better = Better::less,
+                        .shown = in_csv | (leaves_much(report) ? unsigned{in_text} : 0u)},
+                       [](const Row& row) { return ranking_metric(row).value; }});
+    columns.push_back(
+        {{.key = "touched_share",
+          .title = "touched",
+          .help = "share of the samples that the stage changes",
+          .kind = CellKind::share,
+          .shown = in_files},
+         [](const Row& row) { return row.accuracy.touched.empty() ? CellValue() : CellValue(row.accuracy.touched_share); }});
+    columns.push_back({{.key = "undecided_share",
+                        .title = "left out",
+                        .help = "share of the samples that are left out of the errors because rounding decides what they show",
+                        .kind = CellKind::share,
+                        .shown = in_files},
+                       [](const Row& row) { return row.accuracy.undecided_share; }});
+    return columns;
+}
+
+/// Device against model, a part of its own in JSON. An error where nothing could be compared is not known.
+ColumnsOfRows implementation() {
+    const auto column = [](std::string key, std::string json, std::string help, CellKind kind, auto value) {
+        return Column<Row>{{.key = "implementation_" + std::move(key),
+                            .title = "implementation",
+                            .help = std::move(help),
+                            .kind = kind,
+                            .shown = in_files,
+                            .json = "/implementation_error/" + std::move(json)},
+                           value};
+    };
+    const auto if_compared = [](const Row& row, double value) {
+        return is_nothing_compared(row) ? CellValue(Unknown{}) : CellValue(value);
+    };
+    return {column("model", "model_is", "whether the model is the paper's or a mirror of the shader", CellKind::text,
+                   [](const Row& row) { return std::string(name(row.model_is)); }),
+            column("rmse", "rmse", "relative difference between device and model", CellKind::number,
+                   [=](const Row& row) { return if_compared(row, row.accuracy.model_rmse); }),
+            column("worst", "worst", "largest relative difference between device and model", CellKind::number,
+                   [=](const Row& row) { return if_compared(row, row.accuracy.model_worst); }),
+            column("compared", "compared", "texels compared with the model", CellKind::count,
+                   [](const Row& row) { return std::uint64_t{row.accuracy.compared}; }),
+            column("undecided", "undecided", "texels left out because rounding decides them", CellKind::count,
+                   [](const Row& row) { return std::uint64_t{row.accuracy.undecided}; }),
+            column("tolerance", "tolerance/rmse", "largest rmse that the technique allows", CellKind::number,
+                   [](const Row& row) { return row.tolerance; }),
+            column("tolerated_worst", "tolerance/worst", "largest difference that the technique allows", CellKind::number,
+                   [](const Row& row) { return row.tolerated_worst; }),
+            column("doubt", "doubt", "what is wrong with the implementation", CellKind::text,
+                   [](const Row& row) { return cell_if_any(implementation_doubt(row)); }),
+            {{.key = "incomparable",
+              .title = "incomparable",
+              .help = "why device and model or truth cannot be compared",
+              .kind = CellKind::text,
+              .shown = in_files},
+             [](const Row& row) { return cell_if_any(row.accuracy.incomparable); }}};
+}
+
+ColumnsOfRows times(const Report& report) {
+    const std::string unit = below_stage(report.time_unit);
+    return {
+        {{.key = "time",
+          .title = fmt::format("time, x {}", unit),
+          .help = "time of the stage as a multiple of its baseline's: the median of ratios within each repeat, with their median "
+                  "absolute deviation where there are several",
+          .kind = CellKind::ratio,
+          .better = Better::less,
+          .short_title = fmt::format("\xc3\x97 {}", unit),
+          .label = fmt::format("times as long as {}", unit),
+          .if_any = true,
+          .role = Role::cost},
+         [](const Row& row) { return cell_or_nothing(row.time); }},
+        {{.key = "stage_ms",
+          .title = "ms",
+          .help = "median time of the stage in milliseconds; runs at different moments, so their quotients are not the multiples",
+          .kind = CellKind::median,
+          .better = Better::less,
+          .label = "ms of the stage",
+          .if_any = true,
+          .role = Role::cost},
+         [](const Row& row) { return row.stage_ms; }},
+        {{.key = "frame_ms",
+          .title = "frame ms",
+          .help = "median time of the frame in milliseconds",
+          .kind = CellKind::median,
+          .better = Better::less,
+          .shown = in_files | in_window,
+          .label = "ms of the frame",
+          .role = Role::cost,
+          .is_detail = true},
+         [](const Row& row) { return row.frame_ms; }},
+        {{.key = "ns_per_pixel",
+          .title = "ns per pixel",
+          .help = "nanoseconds of the stage by pixels of the frame: compares frames of different extents",
+          .better = Better::less,
+          .shown = in_files | in_window,
+          .role = Role::cost,
+          .is_detail = true},
+         [pixels = double(report.width) * report.height](const Row& row) {
+             return pixels > 0 ? CellValue(row.stage_ms.median * 1e6 / pixels) : CellValue();
+         }},
+        {{.key = "sort_ms",
+          .title = "sort ms",
+          .help = "milliseconds of the stage's time in which the CPU sorts",
+          .kind = CellKind::median,
+          .better = Better::less,
+          .shown = in_files},
+         [](const Row& row) { return cell_or_nothing(row.sort_ms); }}};
+}
+
+ColumnsOfRows costs() {
+    return {{{.key = "stage_bytes",
+              .title = "bytes",
+              .help = "memory of the images and buffers that the technique allocates",
+              .kind = CellKind::count,
+              .better = Better::less,
+              .shown = in_files},
+             [](const Row& row) { return row.stage_bytes; }},
+            {{.key = "bytes_per_pixel",
+              .title = "bytes per pixel",
+              .help = "memory of the images and buffers that the technique allocates, the frame's own left out",
+              .better = Better::less,
+              .digits = ".0f",
+              .short_title = "bytes/px",
+              .if_any = true,
+              .role = Role::cost},
+             [](const Row& row) { return row.bytes_per_pixel; }},
+            {{.key = "invocations",
+              .title = "invocations",
+              .help = "how often the stage's fragment and compute shaders ran, where the device counts them",
+              .kind = CellKind::count,
+              .better = Better::less,
+              .shown = in_files | in_window,
+              .label = "shader invocations",
+              .role = Role::cost,
+              .is_detail = true},
+             [](const Row& row) { return cell_or_nothing(row.invocations); }},
+            {{.key = "flicker",
+              .title = "flicker",
+              .help = "mean change of the error from frame to frame while the camera moves (`--flicker`)",
+              .better = Better::less,
+              .if_any = true,
+              .role = Role::error},
+             [](const Row& row) { return cell_or_nothing(row.flicker); }},
+            {{.key = "coverage_flicker",
+              .title = "coverage flicker",
+              .help = "the same of the share that masked surfaces cover of each pixel, over pixels that have any",
+              .better = Better::less,
+              .if_any = true,
+              .role = Role::error},
+             [](const Row& row) { return cell_or_nothing(row.coverage_flicker); }}};
+}
+
+std::string counters_field(const Row& row) {
+    std::string text;
+    for (const CounterRecord& counter : row.counters)
+        text += fmt::format("{}{}={}", text.empty() ? "" : " ", counter.name, counter.value);
+    return text;
+}
+
+ColumnsOfRows places() {
+    const auto flag = [](std::string key, std::string help, bool Row::*member) {
+        return Column<Row>{
+            {.key = std::move(key), .title = "", .help = std::move(help), .kind = CellKind::flag, .shown = in_files},
+            [member](const Row& row) { return row.*member; }};
+    };
+    return {flag("on_pareto_front", "no row is both more accurate and faster", &Row::on_front),
+            flag("is_tied", "faster than a more accurate row, but by less than the spread of their times", &Row::is_tied),
+            flag("on_memory_front", "no row is both more accurate and smaller", &Row::on_memory_front),
+            {{.key = "counters",
+              .title = "counters",
+              .help = "what the technique counted, as name=value; an object in JSON",
+              .kind = CellKind::text,
+              .shown = in_csv},
+             [](const Row& row) { return cell_if_any(counters_field(row)); }}};
+}
+
+ColumnsOfRows remarks() {
+    return {{{.key = "has_other_truth",
+              .title = "",
+              .help = "measured against another truth than the first row, so not ranked",
+              .kind = CellKind::flag,
+              .shown = in_files},
+             [](const Row& row) { return row.has_other_truth ? CellValue(true) : CellValue(); },
+             Of::every_row},
+            {{.key = "not_supported",
+              .title = "not supported",
+              .help = "why the technique cannot do the frame; then there are no numbers",
+              .kind = CellKind::text,
+              .shown = in_files},
+             [](const Row& row) { return cell_if_any(row.accuracy.not_supported); },
+             Of::every_row},
+            {{.key = "truth",
+              .title = "truth",
+              .help = "what the row is measured against; empty: the stage's truth",
+              .kind = CellKind::text,
+              .shown = in_files},
+             [](const Row& row) { return cell_if_any(row.truth); },
+             Of::every_row}};
+}
+
+void add(ColumnsOfRows& all, ColumnsOfRows more) { std::ranges::move(more, std::back_inserter(all)); }
+
+RowName name_of_row(const Row& row) {
+    const char of_time = row.on_front ? '*' : row.has_other_truth ? 't' : row.is_tied ? '=' : ' ';
+    return {{of_time, row.on_memory_front ? '+' : ' '},
+            below_stage(label(row.technique, row.settings)),
+            row.accuracy.not_supported.empty() ? "" : "not supported: " + row.accuracy.not_supported};
+}
+
+}  // namespace
+
+const Measurement* first_measured(const Report& report) {
+    const auto row =
+        std::ranges::find_if(report.rows, [](const Measurement& each) { return !each.accuracy.technique_errors.empty(); });
+    return row == report.rows.end() ? nullptr : &*row;
+}
+
+std::string ranking_name(const Report& report) {
+    const Measurement* row = first_measured(report);
+    return row ? ranking_name(*row) : "error";
+}
+
+bool leaves_much(const Report& report) {
+    const Measurement* row = first_measured(report);
+    return row && !row->accuracy.touched.empty() && row->accuracy.touched_share < 1;
+}
+
+Sheet sheet_of(const Report& report) {
+    ColumnsOfRows columns = names(), timed = times(report);
+    add(columns, errors(report));
+    add(columns, implementation());
+    add(timed, costs());
+    add(timed, places());
+    if (!report.is_timed)  // their zeros are not measured
+        for (Column<Row>& column : timed) column.value = [](const Row&) { return CellValue(); };
+    add(columns, std::move(timed));
+    add(columns, remarks());
+    Sheet sheet = sheet_of<Row>(columns, report.rows, name_of_row);
+    sheet.heads_labels = fmt::format("{} and settings", name(report.stage));
+    sheet.of_every_row = {{"capture", report.capture_name}};
+    return sheet;
+}
+
+}  // namespace strata

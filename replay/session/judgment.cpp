@@ -1,0 +1,250 @@
+#include "replay/session/judgment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capture_format/frame/frame.h"
+#include "passes/frame_images.h"
+#include "passes/reference/fragments.h"
+#include "passes/reference/raster.h"
+#include "passes/registry.h"
+#include "passes/stage_input.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
+#include "replay/measure/flip.h"
+#include "replay/plural.h"
+#include "replay/session/until_stopped.h"
+
+namespace strata {
+namespace {
+
+// A texel of which every channel is below this is background: comparing it proves nothing.
+constexpr double trivial_below = 1e-6;
+
+bool is_undecided(const ReferenceImage& image, std::size_t texel) { return !image.undecided.empty() && image.undecided[texel]; }
+
+/// Root mean square over the decided texels' colors: what errors are relative to. Texels that are not finite are left out, or one
+/// infinity would make every other error 0.
+double root_mean_square(const ReferenceImage& image) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < image.texels.size(); ++i) {
+        const glm::dvec3 color(image.texels[i]);
+        const double square = glm::dot(color, color) / 3;
+        if (is_undecided(image, i) || !std::isfinite(square)) continue;
+        sum += square;
+        ++count;
+    }
+    return std::sqrt(sum / double(std::max<std::size_t>(1, count)));
+}
+
+/// Equal infinities and two NaN differ by nothing; NaN on one side is as wrong as can be.
+double relative_distance(double got, double wanted, double scale) {
+    if (got == wanted || (std::isnan(got) && std::isnan(wanted))) return 0;
+    const double error = std::abs(got - wanted) / std::max(std::abs(wanted), scale);
+    return std::isnan(error) ? HUGE_VAL : error;
+}
+
+struct Compared {
+    double square_sum = 0, worst = 0;
+    std::size_t texels = 0, undecided = 0, trivial = 0;
+    WorstTexel where;
+};
+
+/// Two images of one shape.
+void compare(std::string_view name, const ReferenceImage& got, const ReferenceImage& wanted, Compared& all) {
+    const double scale = std::max(root_mean_square(wanted), 1e-9);
+    for (std::size_t i = 0; i < wanted.texels.size(); ++i) {
+        if (is_undecided(wanted, i)) {
+            ++all.undecided;
+            continue;
+        }
+        const glm::dvec4 a = got.texels[i], b = wanted.texels[i];
+        if (glm::all(glm::lessThan(glm::abs(glm::dvec3(b)), glm::dvec3(trivial_below)))) ++all.trivial;
+        ++all.texels;
+        for (glm::length_t c = 0; c < static_cast<glm::length_t>(got.channels); ++c) {
+            const double error = relative_distance(a[c], b[c], scale);
+            all.square_sum += error * error / got.channels;
+            if (error <= all.worst && !all.where.image.empty()) continue;
+            all.worst = error;
+            const auto x = static_cast<std::uint32_t>(i % wanted.width), row = static_cast<std::uint32_t>(i / wanted.width);
+            all.where = {std::string(name), x, row % wanted.height, row / wanted.height, got.texels[i], wanted.texels[i]};
+        }
+    }
+}
+
+std::string extent_text(const ReferenceImage& image) {
+    return fmt::format("{} x {} with {}", image.width, image.height, plural(image.layers, "layer"));
+}
+
+bool same_extent(const ReferenceImage& a, const ReferenceImage& b) {
+    return a.width == b.width && a.height == b.height && a.layers == b.layers && a.texels.size() == b.texels.size();
+}
+
+/// What only its own technique can read is compared with nothing.
+bool is_coded(std::string_view image) {
+    const FrameImageRow* row = find_frame_image(image);
+    return row && row->content == Content::coded;
+}
+
+/// Why a result cannot be compared with the model's images, or nothing.
+std::string incomparable_with_model(const StageInfo& of_stage, const ImageSet& result, const ImageSet& model) {
+    if (model.empty()) return "the model gives no image of this frame";
+    for (const auto& [name, wanted] : model) {
+        const auto got = result.find(name);
+        if (got == result.end()) return fmt::format("the model gives {}, the result does not have it", name);
+        if (!same_extent(got->second, wanted))
+            return fmt::format("{} is {}, the model's is {}", name, extent_text(got->second), extent_text(wanted));
+        if (got->second.channels != wanted.channels)
+            return fmt::format("{} has {}, the model's has {}", name, plural(got->second.channels, "channel"), wanted.channels);
+    }
+    for (const std::string_view output : of_stage.outputs)
+        if (result.contains(output) && !model.contains(output) && !is_coded(output))
+            return fmt::format("the result has {}, the model does not give it", output);
+    return {};
+}
+
+/// Why a result cannot be compared with the stage's truth, or nothing.
+std::string incomparable_with_truth(const StageInfo& of_stage, const ImageSet& result, const ImageSet& truth) {
+    if (truth.empty()) return fmt::format("the truth of {} gives no image of this frame", of_stage.name);
+    // A stage's first output is nobody's where a later stage draws over it.
+    const std::string_view first = of_stage.outputs.front();
+    if (result.contains(first) && !truth.contains(first))
+        return fmt::format("the result has {}, the truth of {} does not", first, of_stage.name);
+    for (const auto& [name, wanted] : truth) {
+        if (is_coded(name)) continue;
+        const auto got = result.find(name);
+        if (got == result.end()) return fmt::format("the truth has {}, the result does not have it", name);
+        if (!same_extent(got->second, wanted))
+            return fmt::format("{} is {}, the truth's is {}", name, extent_text(got->second), extent_text(wanted));
+    }
+    return {};
+}
+
+/// How different the stage's picture looks from its truth; of stages that make radiance.
+std::optional<double> flip_of(const StageInfo& stage, const ImageSet& result, const ImageSet& truth) {
+    const std::string_view picture = stage.outputs.front();
+    const FrameImageRow* row = find_frame_image(picture);
+    const auto got = result.find(picture), wanted = truth.find(picture);
+    if (!row || row->content != Content::radiance || got == result.end() || wanted == truth.end()) return {};
+    return radiance_flip(color_planes(wanted->second), color_planes(got->second)).mean;
+}
+
+void judge_by_model(const JudgedStage& stage, Accuracy& accuracy) {
+    ImageSet model = run_model(stage);
+    leave_out_sides(stage.frame, stage.snap_steps, model);
+    accuracy.incomparable = incomparable_with_model(info(stage.choice.technique->stage), stage.result, model);
+    if (!accuracy.incomparable.empty()) {
+        accuracy.model_rmse = accuracy.model_worst = HUGE_VAL;
+        return;
+    }
+    Compared all;
+    for (const auto& [name, wanted] : model) compare(name, stage.result.find(name)->second, wanted, all);
+    accuracy.model_rmse = std::sqrt(all.square_sum / double(std::max<std::size_t>(1, all.texels)));
+    accuracy.model_worst = all.worst;
+    accuracy.compared = all.texels;
+    accuracy.undecided = all.undecided;
+    accuracy.trivial = all.trivial;
+    accuracy.worst = all.where;
+}
+
+/// Leaves out what the stage leaves as it finds it, which a step back of the camera makes more of: the share that remains;
+/// nothing where the stage makes no radiance, and where nothing would remain.
+std::optional<double> keep_touched(const StageInfo& stage, const ImageSet& before, ImageSet& truth) {
+    const std::string_view picture = stage.outputs.front();
+    const FrameImageRow* row = find_frame_image(picture);
+    const auto wanted = truth.find(picture);
+    if (!row || row->content != Content::radiance || wanted == truth.end()) return {};
+    const auto found = before.find(picture);
+    const bool is_drawn_over = found != before.end() && same_extent(found->second, wanted->second);
+    return strata::keep_touched(wanted->second, is_drawn_over ? &found->second : nullptr);
+}
+
+/// Of the texels of one image; 0 where there is none.
+double undecided_share(const ImageSet& truth, std::string_view image) {
+    const auto found = truth.find(image);
+    if (found == truth.end() || found->second.undecided.empty()) return 0;
+    const std::vector<bool>& undecided = found->second.undecided;
+    return double(std::ranges::count(undecided, true)) / double(undecided.size());
+}
+
+/// The figures that the stage's judge would give, every one infinite.
+std::vector<Metric> infinite_metrics(const StageInfo& of_stage, const ImageSet& truth, const StageInput& input) {
+    if (!truth.contains(of_stage.outputs.front())) return {{"error", "", HUGE_VAL}};
+    std::vector<Metric> metrics = of_stage.judge(truth, truth, input);
+    for (Metric& metric : metrics) metric.value = HUGE_VAL;
+    return metrics;
+}
+
+void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
+    const StageInfo& of_stage = info(stage.choice.technique->stage);
+    const StageInput input{stage.frame, stage.before, stage.fragments};
+    ImageSet truth;
+    const bool is_made = until_stopped(stage.stop, [&] {
+        truth = stage.truth ? *stage.truth : truth_of(*stage.choice.technique, stage.choice.settings).make(input);
+    });
+    if (!is_made) return;
+    leave_out_sides(stage.frame, stage.snap_steps, truth);
+    if (const std::string why = incomparable_with_truth(of_stage, stage.result, truth); !why.empty()) {
+        accuracy.incomparable += accuracy.incomparable.empty() ? why : "; " + why;
+        accuracy.technique_errors = infinite_metrics(of_stage, truth, input);
+        return;
+    }
+    accuracy.undecided_share = undecided_share(truth, of_stage.outputs.front());
+    if (accuracy.undecided_share == 1) {
+        accuracy.not_supported = "no sample can be judged: rounding decides what each of them shows";
+        return;
+    }
+    accuracy.technique_errors = of_stage.judge(stage.result, truth, input);
+    accuracy.flip = flip_of(of_stage, stage.result, truth);
+    if (const auto share = keep_touched(of_stage, stage.before, truth)) {
+        accuracy.touched_share = *share;
+        accuracy.touched = of_stage.judge(stage.result, truth, input);
+    }
+}
+
+}  // namespace
+
+std::optional<double> keep_touched(ReferenceImage& image, const ReferenceImage* before) {
+    image.undecided.resize(image.texels.size());
+    std::size_t touched = 0, kept = 0;
+    for (std::size_t i = 0; i < image.texels.size(); ++i) {
+        const bool is_touched = glm::dvec3(image.texels[i]) != (before ? glm::dvec3(before->texels[i]) : glm::dvec3(0));
+        touched += is_touched;
+        image.undecided[i] = image.undecided[i] || !is_touched;
+        kept += !image.undecided[i];
+    }
+    return kept == 0 ? std::nullopt : std::optional(double(touched) / double(image.texels.size()));
+}
+
+void leave_out_sides(const Frame& frame, std::uint32_t device_snap_steps, ImageSet& images) {
+    if (device_snap_steps >= snap_steps) return;
+    const double finer = double(snap_steps) / double(device_snap_steps);
+    const std::vector<bool> near = samples_near_sides(frame, undecided_steps * finer);
+    const View& view = frame.view;
+    for (auto& [name, image] : images) {
+        if (image.width != view.width || image.height != view.height) continue;
+        image.undecided.resize(image.texels.size());
+        const std::size_t pixels = std::size_t(view.width) * view.height;
+        for (std::size_t i = 0; i < near.size(); ++i)
+            if (const std::size_t texel = image.layers == view.samples ? i : i % pixels; near[i]) image.undecided[texel] = true;
+    }
+}
+
+ImageSet run_model(const JudgedStage& stage) {
+    const Technique& technique = *stage.choice.technique;
+    if (!technique.model) return {};
+    return technique.model({stage.frame, stage.before, stage.fragments, stage.rounding}, stage.choice.settings);
+}
+
+Accuracy judge_stage(const JudgedStage& stage) {
+    Accuracy accuracy;
+    const Technique& technique = *stage.choice.technique;
+    accuracy.not_supported = unsupported_because(technique, stage.features);
+    if (!accuracy.not_supported.empty()) return accuracy;
+    if (stage.against != Against::truth) judge_by_model(stage, accuracy);
+    if (stage.against != Against::model && !stage.stop.stop_requested()) judge_by_truth(stage, accuracy);
+    return accuracy;
+}
+
+}  // namespace strata

@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# Runs clang-tidy (.clang-tidy) on the sources that differ from the last landed commit, and on a source for each header that does.
+#   tests/tidy.sh SECONDS    starts no file later than that: the order depends on the commit, so that every commit checks another part
+# What differs is counted from the merge base with the branch's upstream, else with origin/main. Where neither exists, and on the landed
+# commit itself, every file may be checked. Exit code 1: clang-tidy reports something in a file that differs.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+seconds=$1 build=build-tidy
+head=$(git rev-parse HEAD)
+landed=$(git merge-base HEAD '@{upstream}' 2>/dev/null || git merge-base HEAD origin/main 2>/dev/null || true)
+if [ -n "$landed" ] && { [ "$landed" != "$head" ] || ! git diff --quiet HEAD; }; then
+    mapfile -t differing < <(git diff --name-only --diff-filter=d "$landed" -- '*.h' '*.cpp')
+    against="differ from ${landed:0:12}"
+else
+    landed=
+    mapfile -t differing < <(git ls-files '*.cpp')
+    against="may be checked, because no landed commit lies before this one"
+fi
+
+# A header is checked through the source of its name, else through the first that includes it.
+sources=()
+for file in "${differing[@]}"; do
+    source=$file
+    if [ "${file##*.}" = h ]; then
+        source=${file%.h}.cpp
+        [ -f "$source" ] || source=$(git grep -lF "#include \"$file\"" -- '*.cpp' | head -n 1 || true)
+    fi
+    # The consumer of the installed package is a project of its own.
+    case $source in '' | tests/1_capture/consumer/* | docs/*) ;; *) sources+=("$source") ;; esac
+done
+mapfile -t sources < <(printf '%s\n' "${sources[@]}" | sort -u | awk -v seed=$((16#${head:0:7})) '
+    BEGIN { srand(seed) }
+    NF { printf "%.9f %s\n", rand(), $0 }' | sort | cut -d' ' -f2)
+printf '== clang-tidy: %s files %s; %s sources\n' "${#differing[@]}" "$against" "${#sources[@]}" >&2
+[ ${#sources[@]} -gt 0 ] || exit 0
+
+cmake --preset tidy >/dev/null
+ninja -C $build generated/capture_format/schema/capture_generated.h strata_ui_shaders >/dev/null
+
+# Findings are reported in files that differ alone; an empty filter lets all of the project through.
+filter=
+[ -z "$landed" ] || filter=$(printf ',{"name":"%s"}' "${differing[@]}")
+export deadline=$(($(date +%s) + seconds)) filter="${filter:+[${filter#,}]}" build
+log=$(mktemp -d)
+trap 'rm -rf "$log"' EXIT
+export log
+check() {
+    [ "$(date +%s)" -lt "$deadline" ] || return 0
+    echo "$1" >>"$log/checked"
+    clang-tidy-14 --quiet -p "$build" --line-filter="$filter" "$1" >"$log/$$" 2>"$log/$$.errors" && return
+    cat "$log/$$"
+    grep error: "$log/$$.errors"
+    return 1
+}
+export -f check
+touch "$log/checked"
+status=0
+printf '%s\n' "${sources[@]}" | xargs -P "$(nproc)" -I SOURCE bash -c 'check SOURCE' || status=1
+printf '== clang-tidy: %s of %s sources checked in %s s, %s\n' "$(wc -l <"$log/checked")" "${#sources[@]}" \
+    $(($(date +%s) - deadline + seconds)) "$([ $status -eq 0 ] && echo 'nothing found' || echo 'findings above')" >&2
+exit $status
