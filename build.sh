@@ -22,7 +22,7 @@ packages=(
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format git xvfb xdotool x11-apps xclip libx11-dev chromium-common)
 clang_packages=(clang-14 libclang-rt-14-dev llvm-14)
-tidy_packages=(clang-14 clang-tidy-14)
+tidy_packages=(clang-16 clang-tidy-16)
 
 usage() { sed -n '2,/^set/{/^#/p}' "$0" >&2; exit 2; }
 
@@ -125,7 +125,7 @@ case "${1:-build}" in
         rm -rf build-sanitize/profiles
         for program in "${programs[@]}"; do
             say "$program under sanitizers"
-            LLVM_PROFILE_FILE="build-sanitize/profiles/$program-%p.profraw" "build-sanitize/$program" --gtest_brief=1
+            LLVM_PROFILE_FILE="build-sanitize/profiles/$program-%p%c.profraw" "build-sanitize/$program" --gtest_brief=1
         done
         tests/line_coverage.sh
         if [ "${2:-}" = all ]; then

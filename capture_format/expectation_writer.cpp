@@ -7,7 +7,6 @@
 #include "capture_format/container/container.h"
 #include "capture_format/container/picture.h"
 #include "capture_format/container/whole_file.h"
-#include "capture_format/recorder.h"
 
 namespace strata {
 

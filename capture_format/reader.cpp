@@ -15,6 +15,7 @@
 #include "capture_format/container/blob_store.h"
 #include "capture_format/container/container.h"
 #include "capture_format/container/picture.h"
+#include "capture_format/frame.h"
 
 namespace strata {
 

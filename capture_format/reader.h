@@ -1,4 +1,5 @@
 // Opens a capture: verify, check every index, present as Frame. After check_frame() the rest of the program indexes freely.
+// Who asks for frames includes capture_format/frame.h, too.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/partial.h"
 #include "capture_format/result.h"
 

@@ -23,31 +23,16 @@ struct FieldValue {
     }
 };
 
-/// "{frame:>3}" as "{:>3}", and the names that were taken out.
-struct PlainSentence {
+/// The text of a sentence, whose values join the fields.
+std::string formatted(std::string_view sentence, fmt::format_args args, std::vector<ErrorField>& fields) {
     std::string format;
-    std::vector<std::string_view> names;
-};
-
-PlainSentence without_names(std::string_view named) {
-    PlainSentence plain;
-    for (std::size_t i = 0; i < named.size();) {
-        const bool is_field = named[i] == '{' && named[i + 1] != '{';
-        if (named[i] == '{' && !is_field) plain.format += named[i++];
-        plain.format += named[i++];
-        if (!is_field) continue;
-        const std::size_t end = named.find_first_of(":}", i);
-        plain.names.push_back(named.substr(i, end - i));
-        i = end;
-    }
-    return plain;
-}
-
-std::vector<ErrorField> fields_of(const std::vector<std::string_view>& names, fmt::format_args args) {
-    std::vector<ErrorField> fields;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        fields.push_back({names[i], fmt::visit_format_arg(FieldValue(), args.get(static_cast<int>(i)))});
-    return fields;
+    int index = 0;
+    detail::for_each_part(
+        sentence, [&](char c) { format += c; },
+        [&](std::string_view name) {
+            fields.push_back({name, fmt::visit_format_arg(FieldValue(), args.get(index++))});
+        });
+    return fmt::vformat(format, args);
 }
 
 }  // namespace
@@ -84,21 +69,18 @@ const ErrorField* Error::field(std::string_view wanted) const {
 namespace detail {
 
 Error error_of(Fault fault, ErrorId id, std::string_view sentence, fmt::format_args args) {
-    const PlainSentence plain = without_names(sentence);
-    return {.fault = fault, .sentence = fmt::vformat(plain.format, args), .id = id, .fields = fields_of(plain.names, args)};
+    Error error{.fault = fault, .sentence = {}, .id = id};
+    error.sentence = formatted(sentence, args, error.fields);
+    return error;
 }
 
 Error wrapped(Error error, std::string_view where, fmt::format_args args) {
-    const PlainSentence plain = without_names(where);
-    error.sentence = fmt::vformat(plain.format, args) + ": " + error.sentence;
-    for (ErrorField& field : fields_of(plain.names, args)) error.fields.push_back(std::move(field));
+    error.sentence = formatted(where, args, error.fields) + ": " + error.sentence;
     return error;
 }
 
 Error remarked(Error error, std::string_view remark, fmt::format_args args) {
-    const PlainSentence plain = without_names(remark);
-    error.sentence += "; " + fmt::vformat(plain.format, args);
-    for (ErrorField& field : fields_of(plain.names, args)) error.fields.push_back(std::move(field));
+    error.sentence += "; " + formatted(remark, args, error.fields);
     return error;
 }
 

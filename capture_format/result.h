@@ -2,6 +2,7 @@
 // Our own mistakes are asserts; the device's collapse is an exception caught in Session::run.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cstdint>
 #include <optional>
@@ -65,7 +66,7 @@ struct ErrorField {
 struct [[nodiscard]] Error {
     Fault fault = Fault::bad_input;
     std::string sentence;
-    ErrorId id = "strata.unnamed";
+    ErrorId id;
     std::vector<ErrorField> fields = {};  ///< in the order of the sentence; where another error is wrapped, the inner ones first
 
     /// The first field of that name, or null.
@@ -74,20 +75,30 @@ struct [[nodiscard]] Error {
 
 namespace detail {
 
-/// A format string whose placeholders have names, as fmt checks and formats it: "{frame:>3}" is "{:>3}", in the order of
-/// arguments.
+/// Walks over a sentence whose placeholders have names: put(char) gets the format that fmt knows, "{:>3}" of "{frame:>3}";
+/// name(string_view) gets each name, in the order of arguments.
+template <typename Put, typename Name>
+constexpr void for_each_part(std::string_view sentence, Put put, Name name) {
+    for (std::size_t i = 0; i < sentence.size();) {
+        const bool is_brace = sentence[i] == '{', is_escaped = is_brace && sentence.substr(i + 1).starts_with('{');
+        if (is_escaped) put(sentence[i++]);
+        put(sentence[i++]);
+        if (!is_brace || is_escaped) continue;
+        const std::size_t end = std::min(sentence.find_first_of(":}", i), sentence.size());
+        name(sentence.substr(i, end - i));
+        i = end;
+    }
+}
+
+/// The format of a sentence, for fmt's own check at compile time.
 template <std::size_t n>
-struct WithoutNames {
-    constexpr WithoutNames(const char (&named)[n]) {
-        for (std::size_t i = 0; i + 1 < n;) {
-            const bool is_field = named[i] == '{' && named[i + 1] != '{';
-            if (named[i] == '{' && !is_field) text[size++] = named[i++];
-            text[size++] = named[i++];
-            if (!is_field) continue;
-            const std::size_t start = i;
-            while (named[i] != '}' && named[i] != ':') ++i;
-            if (i == start) throw "a placeholder of an error's sentence has a name: {frame}";
-        }
+struct PlainSentence {
+    constexpr explicit PlainSentence(std::string_view sentence) {
+        for_each_part(
+            sentence, [this](char c) { text[size++] = c; },
+            [](std::string_view name) {
+                if (name.empty()) throw "a placeholder of an error's sentence has a name: {frame}";
+            });
     }
     char text[n] = {};
     std::size_t size = 0;
@@ -99,7 +110,7 @@ class Sentence {
 public:
     template <std::size_t n>
     consteval Sentence(const char (&named)[n]) : named_(named, n - 1) {
-        const WithoutNames<n> plain(named);
+        const PlainSentence<n> plain(named_);
         static_cast<void>(fmt::format_string<Args...>(fmt::string_view(plain.text, plain.size)));
     }
     std::string_view named() const { return named_; }
@@ -131,12 +142,6 @@ Error within(Error error, std::type_identity_t<detail::Sentence<Args...>> where,
 template <typename... Args>
 Error advised(Error error, std::type_identity_t<detail::Sentence<Args...>> remark, Args&&... args) {
     return detail::remarked(std::move(error), remark.named(), fmt::make_format_args(args...));
-}
-
-/// An Error that has no id yet.
-template <typename... Args>
-Error fail_unnamed(Fault fault, fmt::format_string<Args...> format, Args&&... args) {
-    return {fault, fmt::format(format, std::forward<Args>(args)...)};
 }
 
 template <typename T>

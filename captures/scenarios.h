@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/result.h"
 
 namespace strata {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "passes/figure.h"
+#include "passes/metric.h"
 #include "passes/stage.h"
 
 namespace strata {

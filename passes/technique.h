@@ -21,7 +21,7 @@ namespace strata {
 
 class Graph;         // passes/graph/graph.h
 struct FrameImages;  // passes/frame_images.h
-struct TruthRow;     // passes/figure.h
+struct TruthRow;     // passes/metric.h
 
 using DeclareFunction = void (*)(Graph&, FrameImages&, const Settings&);
 

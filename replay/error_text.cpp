@@ -1,22 +1,21 @@
 #include "replay/error_text.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <nlohmann/json.hpp>
+
+#include "replay/tables/cell.h"
 
 namespace strata {
 namespace {
 
 using nlohmann::ordered_json;
 
-/// JSON has no NaN and no infinities.
 ordered_json json_of(const ErrorField& field) {
     return std::visit(
         [](const auto& value) -> ordered_json {
-            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
-                if (!std::isfinite(value)) return fmt::format("{}", value);
-            return value;
+            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::int64_t>) return value;
+            else return cell_json(value);
         },
         field.value);
 }

@@ -48,7 +48,7 @@ export log
 check() {
     [ "$(date +%s)" -lt "$deadline" ] || return 0
     echo "$1" >>"$log/checked"
-    clang-tidy-14 --quiet -p "$build" --line-filter="$filter" "$1" >"$log/$$" 2>"$log/$$.errors" && return
+    clang-tidy-16 --quiet -p "$build" --line-filter="$filter" "$1" >"$log/$$" 2>"$log/$$.errors" && return
     cat "$log/$$"
     grep error: "$log/$$.errors"
     return 1

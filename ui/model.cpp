@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "capture_format/frame.h"
 #include "capture_format/reader.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/stages.h"

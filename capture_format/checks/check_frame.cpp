@@ -2,6 +2,7 @@
 // a stage must survive: vertex and particle colors, alphas, depth offsets, normals and float texels may be NaN or infinite.
 #include <cmath>
 
+#include "capture_format/frame.h"
 #include "capture_format/inspection.h"
 #include "capture_format/reader.h"
 

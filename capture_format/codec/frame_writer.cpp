@@ -6,6 +6,7 @@
 #include "capture_format/codec/encode_frame.h"
 #include "capture_format/codec/upgrade.h"
 #include "capture_format/container/picture.h"
+#include "capture_format/frame.h"
 #include "capture_format/inspection.h"
 #include "capture_format/reader.h"
 

@@ -14,6 +14,7 @@
 
 #include "capture_format/container/file.h"
 #include "capture_format/container/picture.h"
+#include "capture_format/frame.h"
 #include "capture_format/frame/draw.h"
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/material.h"

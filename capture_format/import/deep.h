@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/import/deep_window.h"
 #include "capture_format/result.h"
 

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "capture_format/frame.h"
 #include "capture_format/import/gltf_instances.h"
 #include "capture_format/inspection.h"
 #include "capture_format/reader.h"

@@ -57,7 +57,7 @@ class FirstError : public nlohmann::json_sax<Json> {
 public:
     explicit FirstError(std::string_view text) : text_(text) {}
 
-    const Error& error() const { return error_; }
+    const Error& error() const { return error_.value(); }
 
     bool null() override { return next(); }
     bool boolean(bool) override { return next(); }
@@ -128,7 +128,7 @@ private:
 
     std::string_view text_;
     std::vector<Open> open_;
-    Error error_;
+    std::optional<Error> error_;
 };
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "captures/scenarios.h"
 
 namespace strata::scenario {

@@ -333,8 +333,8 @@ Result<void> check_attachments(const Graph& graph, PlannedStep& planned) {
         return fail(Fault::usage, "graph.no_extent",
                     "{step} has no attachments and does not say which pixels it draws: add .within(extent)", step.name);
     if (draw && draw->list.count > 0 && (!draw->list.commands || (draw->count && !draw->list.indices)))
-        return fail(Fault::usage, "graph.no_draw_commands", "{step} draws {draws} commands from no buffer", step.name,
-                    draw->list.count);
+        return fail(Fault::usage, "graph.no_draw_commands",
+                    "{step} draws {draws} indirect commands, but names no buffer that holds them", step.name, draw->list.count);
     return draw ? check_rows(graph, step, *draw) : Result<void>{};
 }
 

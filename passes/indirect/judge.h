@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "passes/figure.h"
+#include "passes/metric.h"
 
 namespace strata {
 

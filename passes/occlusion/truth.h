@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "passes/figure.h"
+#include "passes/metric.h"
 #include "passes/occlusion/radii.h"
 #include "passes/reference/image.h"
 

@@ -2,6 +2,7 @@
 // and the truth nothing of maps.
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/scenarios.h"
 #include "passes/reference/difference.h"
 #include "passes/reference/fragments.h"

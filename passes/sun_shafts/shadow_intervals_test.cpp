@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/reference/rays.h"
 #include "tests/support/one_pixel.h"
 

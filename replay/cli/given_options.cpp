@@ -29,7 +29,7 @@ Result<void> check_option(const CLI::App& app, const std::string& option) {
     if (option.empty() || app.get_option_no_throw(option)) return {};
     for (const auto& [before, now] : renamed_options)
         if (option == before && app.get_option_no_throw(std::string(now)))
-            return fail(Fault::usage, "usage.renamed_option", "{option} has another name: pass {name}", before, now);
+            return fail(Fault::usage, "usage.renamed_option", "{option} was renamed: pass {name}", before, now);
     std::vector<std::string> names;
     for (const CLI::Option* known : app.get_options())
         for (const std::string& name : known->get_lnames()) names.push_back("--" + name);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capture_format/check_capture.h"
+#include "capture_format/frame.h"
 #include "capture_format/reader.h"
 #include "passes/stages.h"
 #include "replay/cli/verb_options.h"

@@ -17,7 +17,7 @@ Result<const Technique*> technique_with(const Ability& ability, const ChoiceChan
             names.push_back(technique.name);
         }
     if (able.empty())
-        return fail(Fault::usage, "technique.none_is_able", "every technique that is built in {lacking}", ability.lacking);
+        return fail(Fault::usage, "technique.none_is_able", "no technique can do this: each {lacking}", ability.lacking);
     const Technique* chosen = choices.technique(able.front()->stage);
     if (!chosen) return able.front();
     if (!ability.is_had_by(*chosen))

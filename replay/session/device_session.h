@@ -6,7 +6,7 @@
 #include <set>
 #include <variant>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/reader.h"
 #include "passes/blend_rounding.h"
 #include "passes/reference/fragments.h"

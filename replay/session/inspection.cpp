@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "capture_format/frame.h"
 #include "passes/indirect/volume_light.h"
 #include "passes/stage_input.h"
 #include "passes/stages.h"

@@ -3,7 +3,12 @@
 #include <bit>
 #include <cmath>
 
+#include "capture_format/frame.h"
+
 namespace strata {
+
+LoadedFrame::LoadedFrame(FrameVariant of, Frame recorded) : variant(std::move(of)), frame(std::move(recorded)) {}
+LoadedFrame::~LoadedFrame() = default;
 
 Result<std::unique_ptr<LoadedFrame>> load_frame(Frame recorded, const FrameVariant& variant) {
     View& view = recorded.view;

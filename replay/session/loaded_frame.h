@@ -3,10 +3,9 @@
 
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/scene/scene_facts.h"
 #include "replay/scene/scene_records.h"
 #include "replay/session/frame_variant.h"
@@ -15,7 +14,8 @@ namespace strata {
 
 /// Stays where it is: `facts` refer to `frame`.
 struct LoadedFrame {
-    LoadedFrame(FrameVariant of, Frame recorded) : variant(std::move(of)), frame(std::move(recorded)) {}
+    LoadedFrame(FrameVariant, Frame recorded);
+    ~LoadedFrame();
 
     FrameVariant variant;
     Frame frame;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "capture_format/frame.h"
 #include "passes/scene/object_order.h"
 #include "passes/stages.h"
 #include "passes/technique.h"

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "capture_format/codec/encode_frame.h"
+#include "capture_format/frame.h"
 #include "tests/1_capture/sample_frames.h"
 
 namespace strata {

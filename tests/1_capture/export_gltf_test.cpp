@@ -6,6 +6,7 @@
 
 #include "capture_format/export/gltf.h"
 #include "capture_format/export/gltf_glass.h"
+#include "capture_format/frame.h"
 #include "capture_format/import/gltf.h"
 #include "captures/scenarios.h"
 #include "tests/1_capture/sample_frames.h"

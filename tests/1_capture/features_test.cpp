@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "capture_format/frame.h"
 #include "capture_format/frame_features.h"
 #include "tests/1_capture/sample_frames.h"
 

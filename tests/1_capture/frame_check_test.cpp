@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "capture_format/frame.h"
 #include "capture_format/reader.h"
 #include "tests/1_capture/sample_frames.h"
 #include "tests/support/errors.h"

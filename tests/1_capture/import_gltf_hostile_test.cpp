@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "capture_format/frame/draw.h"
 #include "capture_format/frame/frame.h"
 #include "capture_format/import/gltf.h"

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "capture_format/codec/texture_mips.h"
+#include "capture_format/frame.h"
 #include "capture_format/import/gltf.h"
 #include "capture_format/import/seen.h"
 #include "capture_format/reader.h"

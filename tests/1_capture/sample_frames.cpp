@@ -4,6 +4,8 @@
 #include <bit>
 #include <limits>
 
+#include "capture_format/frame.h"
+
 namespace strata {
 namespace {
 

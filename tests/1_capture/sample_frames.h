@@ -1,7 +1,7 @@
 // Small frames for the tests of captures.
 #pragma once
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 
 namespace strata {
 

@@ -1,5 +1,7 @@
-// Files that are written whole or not at all. What a signal does to them is shown with the program itself, in tests/7_tool.
+// Files that are written whole or not at all, whatever ends the process.
 #include "capture_format/container/whole_file.h"
+
+#include <csignal>
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -117,6 +119,63 @@ TEST(WholeFile, AKeptFileIsNotReplacedByAnyNameOrLink) {
 TEST(WholeFile, ADeviceIsWrittenAndNotReplaced) {
     ASSERT_TRUE(write_whole_file("/dev/null", "text"));
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+/// Has a file half written and then does what ends the process. Signals reach the thread that waits for them, and no other.
+template <typename End>
+void write_half(const std::filesystem::path& folder, End end) {
+    if (!leave_nothing_half_written_when_stopped()) _exit(1);
+    const auto file = WholeFile::begin(folder / "a");
+    if (!file || files_in(folder) != 1) _exit(2);
+    end();
+    pause();
+    _exit(3);
+}
+
+void signal_this_process(int signal) { ::kill(::getpid(), signal); }
+
+TEST(WholeFileDeathTest, ASignalThatEndsTheProcessLeavesNothing) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    const auto folder = empty_folder();
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGXCPU, SIGUSR1}) {
+        EXPECT_EXIT(write_half(folder, [&] { signal_this_process(signal); }), testing::ExitedWithCode(128 + signal),
+                    "no file is half written");
+        EXPECT_EQ(files_in(folder), 0) << signal;
+    }
+}
+
+TEST(WholeFileDeathTest, AProgramThatCannotGoOnLeavesNothing) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    const auto folder = empty_folder();
+    EXPECT_EXIT(write_half(folder, [] { end_program(4); }), testing::ExitedWithCode(4), "");
+    EXPECT_EQ(files_in(folder), 0);
+}
+
+TEST(WholeFileDeathTest, TheFirstSignalAsksForAStopWhereOneIsAwaitedAndTheSecondEndsTheProcess) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    const auto folder = empty_folder();
+    const auto stop_twice = [] {
+        const StopAtSignal stop;
+        signal_this_process(SIGTERM);
+        while (!stop.token().stop_requested()) usleep(1000);
+        signal_this_process(SIGTERM);
+        pause();
+    };
+    EXPECT_EXIT(write_half(folder, stop_twice), testing::ExitedWithCode(128 + SIGTERM), "a second signal ends it at once");
+    EXPECT_EQ(files_in(folder), 0);
+}
+
+TEST(WholeFileDeathTest, ASignalThatTheCallerIgnoresIsIgnored) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    const auto folder = empty_folder();
+    const auto hang_up = [&] {
+        std::signal(SIGHUP, SIG_IGN);
+        write_half(folder, [] {
+            signal_this_process(SIGHUP);
+            _exit(0);
+        });
+    };
+    EXPECT_EXIT(hang_up(), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

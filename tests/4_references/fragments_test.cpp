@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "capture_format/frame.h"
 #include "passes/reference/fragments.h"
+#include "passes/reference/shade.h"
 #include "tests/4_references/tiny_frame.h"
 
 namespace strata {

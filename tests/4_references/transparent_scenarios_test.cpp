@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "capture_format/frame.h"
 #include "capture_format/frame_features.h"
 #include "captures/scenarios.h"
 #include "passes/reference/fragments.h"

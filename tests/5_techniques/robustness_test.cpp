@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/scenarios.h"
 #include "passes/frame_images.h"
 #include "passes/registry.h"

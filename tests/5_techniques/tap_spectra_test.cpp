@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/scenarios.h"
 #include "passes/frame_images.h"
 #include "passes/indirect/lpv/grids_model.h"

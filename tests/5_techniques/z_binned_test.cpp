@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/scenarios.h"
 #include "passes/frame_images.h"
 #include "passes/lighting/z_binned/z_bins.h"

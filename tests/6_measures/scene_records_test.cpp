@@ -1,6 +1,7 @@
 // The records a scene becomes on the device are relative to the eye: where in the world a frame was recorded does not matter.
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/scenarios.h"
 #include "passes/scene/scene_facts.h"
 #include "replay/scene/scene_records.h"

@@ -2,6 +2,7 @@
 // again.
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/scenarios.h"
 #include "passes/scene/scene_facts.h"
 #include "replay/scene/device_scene.h"

@@ -40,7 +40,7 @@ void make(const std::string& name, bool measures = true) {
     }
 }
 
-/// One driver's texels differ from another's in their last bits, and its name stands in the picture.
+/// The driver's name stands in the picture.
 class ReadmePictures : public testing::Test {
 protected:
     void SetUp() override {
@@ -58,9 +58,28 @@ protected:
     }
 };
 
+struct Rectangle {
+    std::uint32_t left = 0, top = 0, right = 0, bottom = 0;
+};
+
+/// Whether two pictures are the same in a rectangle: a driver's last bits differ between makers of processors, which moves a few
+/// texels by one step.
+bool is_same_in(const Rectangle& part, const HostImage& a, const HostImage& b) {
+    constexpr double step = 1.01 / 255;
+    std::size_t moved = 0;
+    for (std::uint32_t y = part.top; y < part.bottom; ++y)
+        for (std::uint32_t x = part.left; x < part.right; ++x) {
+            const glm::dvec4 difference = glm::abs(texel(a, x, y) - texel(b, x, y));
+            if (glm::any(glm::greaterThan(difference, glm::dvec4(step)))) return false;
+            moved += difference != glm::dvec4(0);
+        }
+    return moved <= 4 + std::size_t{part.right - part.left} * (part.bottom - part.top) / 1000;
+}
+
 void expect_same(const std::string& name) {
     const HostImage made = must(read_png(folder() / (name + ".png"))), expected = must(read_png(kept / (name + ".png")));
-    EXPECT_TRUE(made.shape == expected.shape && made.texels == expected.texels)
+    const Extent& extent = made.shape.extent;
+    EXPECT_TRUE(made.shape == expected.shape && is_same_in({0, 0, extent.width, extent.height}, made, expected))
         << name << ".png is another; what was made lies in " << folder() << "; keep it by " << command_that_accepts();
 }
 
@@ -76,16 +95,12 @@ TEST_F(ReadmePictures, AComparisonIsWhatItsScriptMakes) {
     expect_same("compare");
 }
 
-/// Whether two pictures are the same in a widget's rectangle.
-bool is_same_in(const nlohmann::json& widget, const HostImage& a, const HostImage& b) {
+Rectangle rectangle_of(const nlohmann::json& widget, const Extent& extent) {
     const auto edge = [&](const char* corner, int axis, std::uint32_t most) {
         return static_cast<std::uint32_t>(std::clamp(widget[corner][axis].get<double>(), 0.0, static_cast<double>(most)));
     };
-    const Extent& extent = a.shape.extent;
-    for (std::uint32_t y = edge("from", 1, extent.height); y < edge("to", 1, extent.height); ++y)
-        for (std::uint32_t x = edge("from", 0, extent.width); x < edge("to", 0, extent.width); ++x)
-            if (texel(a, x, y) != texel(b, x, y)) return false;
-    return true;
+    return {edge("from", 0, extent.width), edge("from", 1, extent.height), edge("to", 0, extent.width),
+            edge("to", 1, extent.height)};
 }
 
 TEST_F(ReadmePictures, AroundAReportIsWhatItsScriptMakes) {
@@ -98,7 +113,8 @@ TEST_F(ReadmePictures, AroundAReportIsWhatItsScriptMakes) {
     for (const auto& widget : tree["widgets"]) {
         const std::string path = widget["path"];
         if (path.starts_with("Accuracy and cost/") || !widget["visible"].get<bool>()) continue;
-        EXPECT_TRUE(is_same_in(widget, made, expected)) << path << "; keep it by " << command_that_accepts();
+        EXPECT_TRUE(is_same_in(rectangle_of(widget, made.shape.extent), made, expected))
+            << path << "; keep it by " << command_that_accepts();
         ++regions;
     }
     EXPECT_GT(regions, 40u);

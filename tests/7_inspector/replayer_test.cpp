@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "captures/scenarios.h"
 #include "tests/support/errors.h"
 #include "tests/support/session.h"
@@ -46,7 +47,7 @@ Request with_another_eye() { return {.variant = {.eye = {.dolly = .5}}}; }
 /// As a session's call that takes long: until somebody asks it to stop.
 Result<int> until_stopped(ui::Progress& progress) {
     while (!progress.is_interrupted()) std::this_thread::sleep_for(1ms);
-    return fail_unnamed(Fault::stopped, "stopped");
+    return fail(Fault::stopped, "session.stopped", "stopped");
 }
 
 TEST(Replayer, APictureStopsTheJobThatHoldsItUpAndTheJobBeginsAnewAfterIt) {

@@ -13,6 +13,7 @@
 #include "capture_format/codec/decode_frame.h"
 #include "capture_format/codec/frame_json.h"
 #include "capture_format/container/container.h"
+#include "capture_format/frame.h"
 #include "capture_format/reader.h"
 #include "passes/registry.h"
 #include "passes/technique.h"

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "replay/cli/renamed_options.h"
 #include "tests/1_capture/temporary_file.h"
@@ -205,6 +206,9 @@ TEST(Options, OfTheProgramStandWithoutAVerb) {
         EXPECT_EQ(refused.out, "") << given;
     }
     EXPECT_EQ(strata("--version").code, 0);
+    const Finished in_json = strata("--version --json");
+    EXPECT_EQ(in_json.code, 2);
+    EXPECT_EQ(nlohmann::json::parse(in_json.out)["error"]["id"], "options.excluded") << in_json.out;
 }
 
 TEST(Options, ThatCannotBeFollowedAreASentence) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "capture_format/frame.h"
 #include "captures/scenarios.h"
 #include "passes/frame_images.h"
 #include "passes/reference/difference.h"

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "capture_format/frame.h"
 #include "capture_format/reader.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"

@@ -1,6 +1,5 @@
 // Errors have ids: words for the case, of one kind, with one sentence each.
 #include <algorithm>
-#include <array>
 #include <map>
 #include <regex>
 #include <set>
@@ -13,9 +12,6 @@
 
 namespace strata {
 namespace {
-
-/// Folders in which every error has an id.
-constexpr std::array folders_with_ids = {"capture_format", "captures", "passes", "replay", "ui"};
 
 /// Ids with more than one sentence, and why.
 const std::map<std::string, std::string> several_sentences = {
@@ -144,17 +140,6 @@ TEST(Errors, OfOneSentenceHaveOneId) {
         EXPECT_TRUE(known->second.id == error.id || several_ids.contains(error.sentence))
             << known->second.place << " and " << error.place << ": " << error.sentence;
     }
-}
-
-TEST(Errors, HaveIdsInTheFoldersThatAreConverted) {
-    std::map<std::string, int> unnamed;
-    for (const SourceFile& file : source_files()) {
-        if (file.folder() == "tests" || file.path.filename() == "result.h") continue;
-        for (const std::string& line : file.lines)
-            if (code_of(line).find("fail_unnamed(") != std::string::npos) ++unnamed[file.folder()];
-    }
-    for (const char* folder : folders_with_ids) EXPECT_EQ(unnamed[folder], 0) << "errors without an id in " << folder;
-    for (const auto& [folder, count] : unnamed) RecordProperty("without_id_in_" + folder, count);
 }
 
 }  // namespace

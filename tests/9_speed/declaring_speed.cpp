@@ -2,6 +2,7 @@
 // loaded or first asked for, and declaring it again costs as much as it has draws.
 #include <benchmark/benchmark.h>
 
+#include "capture_format/frame.h"
 #include "passes/registry.h"
 #include "passes/stages.h"
 #include "passes/technique.h"

@@ -7,6 +7,7 @@
 #include "capture_format/codec/texture_bytes.h"
 #include "capture_format/container/blob_store.h"
 #include "capture_format/container/container.h"
+#include "capture_format/frame.h"
 #include "capture_format/frame_features.h"
 #include "capture_format/reader.h"
 

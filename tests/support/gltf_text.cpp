@@ -3,6 +3,8 @@
 #include <span>
 #include <stdexcept>
 
+#include "capture_format/frame.h"
+
 namespace strata {
 
 std::string base64(const std::string& bytes) {

@@ -1,5 +1,7 @@
 #include "tests/support/one_pixel.h"
 
+#include "capture_format/frame.h"
+
 namespace strata {
 
 Frame one_pixel(std::uint32_t samples) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "capture_format/frame.h"
 #include "capture_format/reader.h"
 #include "passes/frame_images.h"
 #include "passes/scene/scene_facts.h"

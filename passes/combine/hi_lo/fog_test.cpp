@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "capture_format/frame.h"
 #include "passes/combine/truth.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"

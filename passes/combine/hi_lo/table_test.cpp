@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "capture_format/frame.h"
 #include "passes/lighting/material_table_model.h"
 #include "passes/stage_input.h"
 #include "passes/technique.h"

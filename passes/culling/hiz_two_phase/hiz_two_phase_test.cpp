@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "capture_format/frame.h"
 #include "captures/scenarios.h"
 #include "passes/culling/judge.h"
 #include "passes/culling/truth.h"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/edges/truth.h"
 #include "passes/stage_input.h"
 #include "passes/technique.h"

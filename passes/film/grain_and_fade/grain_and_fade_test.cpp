@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/film/grain_model.h"
 #include "passes/stage_input.h"
 #include "passes/technique.h"

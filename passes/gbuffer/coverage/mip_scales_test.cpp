@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "capture_format/codec/texture_mips.h"
+#include "capture_format/frame.h"
 #include "captures/scenarios.h"
 #include "passes/gbuffer/coverage/mask_tests.h"
 #include "passes/reference/textures.h"

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/indirect/lpv/injection/emission_model.h"
 #include "passes/indirect/lpv/injection/reflective_map_model.h"
 #include "passes/indirect/lpv/lpv.shared.h"

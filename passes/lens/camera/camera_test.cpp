@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
 #include "passes/lens/lens.shared.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "capture_format/frame.h"
 #include "passes/settings.h"
 #include "passes/stage_input.h"
 #include "tests/support/one_pixel.h"

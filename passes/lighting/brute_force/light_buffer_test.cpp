@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "capture_format/frame.h"
 #include "passes/lighting/brute_force/brute_force.shared.h"
 #include "passes/lighting/brute_force/light_buffer_model.h"
 #include "passes/reference/lights.h"

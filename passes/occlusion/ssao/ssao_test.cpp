@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
 #include "passes/reference/shade.h"

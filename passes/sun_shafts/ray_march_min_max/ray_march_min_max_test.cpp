@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
 #include "passes/scene/scene_facts.h"

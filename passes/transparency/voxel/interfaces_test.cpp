@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/reference/ordering.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/transparency/voxel/slices/depth_curve.h"

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/frame.h"
 #include "passes/indirect/lpv/injection/bounce_model.h"
 #include "passes/indirect/lpv/model.h"
 #include "passes/indirect/lpv/occlusion/fuzzy_model.h"

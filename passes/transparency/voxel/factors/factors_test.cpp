@@ -1,4 +1,5 @@
 // Facts about slices that hold products (docs/algorithms/transparency.md 6.4, first row of its table).
+#include "capture_format/frame.h"
 #include "passes/transparency/voxel/factors/model.h"
 #include "tests/support/one_pixel.h"
 

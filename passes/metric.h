@@ -11,7 +11,7 @@ namespace strata {
 
 struct StageInput;  // passes/stage_input.h
 
-/// One named number with its unit; smaller is better. The first figure of a judge is the stage's error.
+/// One named number with its unit; smaller is better. The first metric of a judge is the stage's error.
 struct Metric {
     std::string name, unit;
     double value = 0;
