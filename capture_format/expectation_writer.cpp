@@ -7,6 +7,7 @@
 #include "capture_format/container/container.h"
 #include "capture_format/container/picture.h"
 #include "capture_format/container/whole_file.h"
+#include "capture_format/out_of_memory.h"
 
 namespace strata {
 
@@ -85,10 +86,12 @@ Result<void> ExpectationWriter::finish() {
 }
 
 Result<void> append_expectation(const std::filesystem::path& path, std::string_view expectation) {
-    auto writer = ExpectationWriter::extend(path);
-    if (!writer) return writer.error();
-    if (const auto added = writer->add(expectation); !added) return added;
-    return writer->finish();
+    return within_memory("write", path.native(), [&]() -> Result<void> {
+        auto writer = ExpectationWriter::extend(path);
+        if (!writer) return writer.error();
+        if (const auto added = writer->add(expectation); !added) return added;
+        return writer->finish();
+    });
 }
 
 }  // namespace strata

@@ -16,6 +16,7 @@
 #include "capture_format/container/container.h"
 #include "capture_format/container/picture.h"
 #include "capture_format/frame.h"
+#include "capture_format/out_of_memory.h"
 
 namespace strata {
 
@@ -44,6 +45,8 @@ struct Capture::Contents {
     Result<std::span<const std::byte>> flatbuffer(std::size_t frame);
     Result<void> unpack(std::size_t frame);
     Result<std::string> text(std::size_t section, std::size_t longest) const;
+    Result<Frame> decoded(std::size_t frame);
+    Result<std::vector<std::byte>> expected_image(std::string_view name, std::uint64_t bytes);
 };
 
 namespace {
@@ -137,8 +140,9 @@ Result<void> Capture::Contents::unpack(std::size_t frame) {
     if (section.version == 1)
         return container.located(
             number, fail(Fault::bad_input, "capture.frame.base_version", "frames of format version 1 cannot be built on"));
-    budget.give_back(std::exchange(chain_bytes, needed));
+    budget.give_back(std::exchange(chain_bytes, 0));
     if (const auto taken = budget.take(needed, 1, container.whereabouts(number)); !taken) return taken;
+    chain_bytes = needed;
     const auto raw = chain.unpack(*stored, section.raw_bytes);
     if (!raw) return container.located(number, raw.error());
     unpacked = frame;
@@ -207,11 +211,11 @@ Result<void> Capture::Contents::read(Partial partial) {
 }
 
 Result<Capture> Capture::open(const std::filesystem::path& path, Partial partial, std::uint64_t memory_budget) {
-    return read(Container::open(path), partial, memory_budget);
+    return within_memory("read", path.native(), [&] { return read(Container::open(path), partial, memory_budget); });
 }
 
 Result<Capture> Capture::open(std::span<const std::byte> bytes, std::string name, Partial partial, std::uint64_t memory_budget) {
-    return read(Container::open(bytes, std::move(name)), partial, memory_budget);
+    return within_memory("read", name, [&] { return read(Container::open(bytes, name), partial, memory_budget); });
 }
 
 Result<Capture> Capture::read(Result<Container> container, Partial partial, std::uint64_t memory_budget) {
@@ -237,37 +241,41 @@ const Texture& Capture::thumbnail() const { return contents_->thumbnail; }
 const std::vector<std::string>& Capture::expectations() const { return contents_->expectations; }
 
 Result<std::vector<std::byte>> Capture::expected_image(std::string_view name, std::uint64_t bytes) const {
-    Contents& contents = *contents_;
-    const auto hash = parse_blob_hash(name);
-    if (!hash)
-        return fail(Fault::bad_input, "expect.image_name", "an expectation names the image '{image}', which is not a hash", name);
-    const std::lock_guard lock(contents.decoding);
-    if (!contents.images) {
-        Result<BlobStore> opened = BlobStore::open(contents.container, contents.budget, SectionType::expect);
-        if (!opened) return opened.error();
-        contents.images = *std::move(opened);
-    }
-    contents.images->keep_only_used();  // those of the expectation before the last
-    return contents.images->find({*hash, bytes}).and_then([&](auto& found) {
-        return std::vector<std::byte>(found.begin(), found.end());
-    });
+    return within_memory("read", contents_->container.file_name(), [&] { return contents_->expected_image(name, bytes); });
 }
 
 Result<Frame> Capture::frame(std::size_t index) const {
-    Contents& contents = *contents_;
-    if (index >= contents.frames.size()) {
-        return fail(Fault::usage, "capture.no_frame", "there is no frame {frame}: the capture has {frames}, numbered from 0",
-                    index, contents.frames.size());
+    return within_memory("read", contents_->container.file_name(), [&] { return contents_->decoded(index); });
+}
+
+Result<std::vector<std::byte>> Capture::Contents::expected_image(std::string_view name, std::uint64_t bytes) {
+    const auto hash = parse_blob_hash(name);
+    if (!hash)
+        return fail(Fault::bad_input, "expect.image_name", "an expectation names the image '{image}', which is not a hash", name);
+    const std::lock_guard lock(decoding);
+    if (!images) {
+        Result<BlobStore> opened = BlobStore::open(container, budget, SectionType::expect);
+        if (!opened) return opened.error();
+        images = *std::move(opened);
     }
-    const std::size_t number = contents.frames[index];
-    const std::lock_guard lock(contents.decoding);
-    const auto flatbuffer = contents.flatbuffer(index);
-    if (!flatbuffer) return flatbuffer.error();
-    Result<Frame> decoded = decode_frame(*flatbuffer, *contents.blobs, contents.budget);
-    contents.blobs->keep_only_used();
-    if (!decoded) return contents.container.located(number, decoded.error());
-    Frame frame = upgrade(*std::move(decoded), contents.container.sections()[number].version);
-    if (const Result<void> checked = check_frame(frame); !checked) return contents.container.located(number, checked.error());
+    images->keep_only_used();  // those of the expectation before the last
+    return images->find({*hash, bytes}).and_then([&](auto& found) { return std::vector<std::byte>(found.begin(), found.end()); });
+}
+
+Result<Frame> Capture::Contents::decoded(std::size_t index) {
+    if (index >= frames.size()) {
+        return fail(Fault::usage, "capture.no_frame", "there is no frame {frame}: the capture has {frames}, numbered from 0",
+                    index, frames.size());
+    }
+    const std::size_t number = frames[index];
+    const std::lock_guard lock(decoding);
+    const auto found = flatbuffer(index);
+    if (!found) return found.error();
+    Result<Frame> decoded = decode_frame(*found, *blobs, budget);
+    blobs->keep_only_used();
+    if (!decoded) return container.located(number, decoded.error());
+    Frame frame = upgrade(*std::move(decoded), container.sections()[number].version);
+    if (const Result<void> checked = check_frame(frame); !checked) return container.located(number, checked.error());
     return frame;
 }
 

@@ -7,54 +7,40 @@
 
 #include <atomic>
 #include <mutex>
-#include <new>
 #include <optional>
+#include <system_error>
 #include <thread>
+#include <type_traits>
 #include <utility>
 
 #include "capture_format/codec/frame_writer.h"
 #include "capture_format/container/container.h"
 #include "capture_format/container/picture.h"
+#include "capture_format/out_of_memory.h"
+#include "capture_format/recorded_bytes.h"
 #include "capture_format/recording_queue.h"
 
 namespace strata {
 namespace {
 
-template <typename T>
-std::uint64_t bytes_of(const std::vector<T>& values) {
-    return values.size() * sizeof(T);
-}
-std::uint64_t footprint(const Texture& texture) { return sizeof(texture) + texture.name.size() + texture.texels.size(); }
-std::uint64_t footprint(const Mesh& mesh) {
-    return sizeof(mesh) + mesh.name.size() + bytes_of(mesh.positions) + bytes_of(mesh.normals) + bytes_of(mesh.tangents) +
-           bytes_of(mesh.uv0) + bytes_of(mesh.uv1) + bytes_of(mesh.colors) + bytes_of(mesh.indices);
-}
-std::uint64_t footprint(const Material& material) { return sizeof(material) + material.name.size(); }
-std::uint64_t footprint(const Draw& draw) { return sizeof(draw) + draw.name.size(); }
-std::uint64_t footprint(const Emitter& emitter) { return sizeof(emitter) + emitter.name.size() + bytes_of(emitter.particles); }
-std::uint64_t footprint(const Light& light) {
-    return sizeof(light) + light.name.size() + bytes_of(light.clip_planes) + bytes_of(light.blockers) + bytes_of(light.portals);
-}
-/// What only a few of are ever submitted.
-template <typename T>
-std::uint64_t footprint(const T& value) {
-    return sizeof(value);
-}
-template <typename T>
-std::uint64_t footprint(const std::vector<T>& values) {
-    std::uint64_t sum = 0;
-    for (const T& value : values) sum += footprint(value);
-    return sum;
-}
-std::uint64_t footprint(const Frame& frame) {
-    return sizeof(frame) + footprint(frame.textures) + footprint(frame.meshes) + footprint(frame.materials) +
-           footprint(frame.draws) + footprint(frame.emitters) + footprint(frame.lights) + footprint(frame.blockers) +
-           footprint(frame.portals);
+/// The exception that is being handled, as what a call returns: an application must not end because it is recorded.
+Error caught(std::string_view file) noexcept {
+    return within_memory("record", file, [&]() -> Error {
+        try {
+            throw;
+        } catch (const std::system_error& refused) {
+            return fail(Fault::device_lacks, "machine.no_thread", "this machine cannot start another thread: {reason}",
+                        refused.what());
+        } catch (const std::bad_alloc&) {
+            throw;
+        } catch (const std::exception& mistake) {
+            return fail(Fault::internal, "record.mistake", "{file} cannot be recorded, which is a mistake of strata: {reason}",
+                        file, mistake.what());
+        }
+    });
 }
 
 }  // namespace
-
-std::uint64_t recorded_bytes(const Frame& frame) { return footprint(frame); }
 
 struct Recorder::Stream {
     Stream(FrameWriter opened, std::uint64_t budget) : writer(std::move(opened)), queue(budget) {
@@ -70,8 +56,13 @@ struct Recorder::Stream {
     Result<void> write(SubmittedFrame&);
     Result<void> write(WholeFrame&);
     Result<void> write(EncodedThumbnail&);
+    void keep(Error);  ///< for report()
 
     // The application's side.
+    /// Makes a call of the application, under the mutex. Where it throws, what follows would be wrong. A call that returns no
+    /// Result leaves its error to the next one that does.
+    template <typename Call>
+    static std::invoke_result_t<Call, Stream&> run(const std::unique_ptr<Stream>&, const Call&);
     void stop();
     /// The first error of the thread that was not returned yet; a broken writer's every time.
     Result<void> report();
@@ -112,18 +103,21 @@ void Recorder::Stream::work() {
     const sched_param no_priority{};
     (void)pthread_setschedparam(pthread_self(), SCHED_BATCH, &no_priority);
     while (std::optional<Recorded> item = queue.pop()) {
-        Result<void> done;
+        if (writer.broken()) continue;  // a resource may be missing that what follows builds on
         try {
-            done = std::visit([this](auto& recorded) { return write(recorded); }, *item);
-        } catch (const std::bad_alloc&) {
-            done =
-                writer.give_up(fail(Fault::usage, "record.no_memory", "there is no memory left to record {file}", writer.path()));
+            const Result<void> done = std::visit([this](auto& recorded) { return write(recorded); }, *item);
+            if (!done) keep(Error(done.error()));
+        } catch (const std::exception&) {
+            writer.give_up(caught(writer.path()));
+            keep(caught(writer.path()));
         }
-        if (done) continue;
-        const std::lock_guard lock(reporting);
-        broken = writer.broken().has_value();
-        if (!unreported || broken) unreported = done.error();
     }
+}
+
+void Recorder::Stream::keep(Error error) {
+    const std::lock_guard lock(reporting);
+    broken = writer.broken().has_value();
+    if (!unreported || broken) unreported = std::move(error);
 }
 
 Result<void> Recorder::Stream::write(SubmittedFrame& submitted) {
@@ -166,9 +160,29 @@ Result<void> Recorder::Stream::usable() const {
     return {};
 }
 
+template <typename Call>
+std::invoke_result_t<Call, Recorder::Stream&> Recorder::Stream::run(const std::unique_ptr<Stream>& stream, const Call& call) {
+    using Returned = std::invoke_result_t<Call, Stream&>;
+    constexpr bool has_error = std::is_same_v<Returned, Result<void>>;
+    if constexpr (has_error)
+        if (!stream)
+            return within_memory("record", "a frame", [] {
+                return fail(Fault::usage, "record.moved_from", "this recorder was moved from; use the one it was moved to");
+            });
+    if (!stream) return Returned();
+    const std::lock_guard lock(stream->calls);
+    const std::string& file = stream->writer.path();
+    try {
+        return call(*stream);
+    } catch (const std::exception&) {
+        if (!stream->misuse) stream->misuse = caught(file);
+        if constexpr (has_error) return caught(file);
+        else return Returned();
+    }
+}
+
 template <typename T>
 std::uint32_t Recorder::Stream::add(std::uint32_t& count, T resource, std::string_view call) {
-    const std::lock_guard lock(calls);
     const std::uint32_t index = count++;
     update(count, index, std::move(resource), call);
     return index;
@@ -183,7 +197,7 @@ void Recorder::Stream::update(std::uint32_t count, std::uint32_t index, T resour
         return;
     }
     const std::uint64_t bytes = footprint(resource);
-    const std::string what = fmt::format("'{:.60}'", resource.name);
+    const std::string what = label(index, resource);
     // Without this resource all that follows would be wrong.
     if (const Result<void> pushed = queue.push(Put<T>{index, std::move(resource)}, bytes, what); !pushed) {
         (void)misused(pushed.error());
@@ -192,7 +206,6 @@ void Recorder::Stream::update(std::uint32_t count, std::uint32_t index, T resour
 
 template <typename Fill>
 void Recorder::Stream::submit(std::string_view call, const Fill& fill) {
-    const std::lock_guard lock(calls);
     if (frame) {
         frame_bytes += fill(*frame);
     } else {
@@ -213,9 +226,13 @@ std::uint32_t Recorder::Stream::append(std::string_view call, std::vector<T> Fra
 }
 
 Result<Recorder> Recorder::create(const std::filesystem::path& path, std::string notes, const RecorderOptions& options) {
-    Result<FrameWriter> writer = FrameWriter::create(path, notes);
-    if (!writer) return writer.error();
-    return Recorder(std::make_unique<Stream>(*std::move(writer), options.budget_bytes));
+    try {
+        Result<FrameWriter> writer = FrameWriter::create(path, notes);
+        if (!writer) return writer.error();
+        return Recorder(std::make_unique<Stream>(*std::move(writer), options.budget_bytes));
+    } catch (const std::exception&) {
+        return caught(path.native());
+    }
 }
 
 Recorder::Recorder(std::unique_ptr<Stream> stream) : stream_(std::move(stream)) {}
@@ -224,133 +241,160 @@ Recorder& Recorder::operator=(Recorder&&) noexcept = default;
 Recorder::~Recorder() = default;
 
 std::uint32_t Recorder::add_texture(Texture texture) {
-    return stream_->add(stream_->textures, std::move(texture), "add_texture");
+    return Stream::run(stream_, [&](Stream& stream) { return stream.add(stream.textures, std::move(texture), "add_texture"); });
 }
-std::uint32_t Recorder::add_mesh(Mesh mesh) { return stream_->add(stream_->meshes, std::move(mesh), "add_mesh"); }
+std::uint32_t Recorder::add_mesh(Mesh mesh) {
+    return Stream::run(stream_, [&](Stream& stream) { return stream.add(stream.meshes, std::move(mesh), "add_mesh"); });
+}
 std::uint32_t Recorder::add_material(Material material) {
-    return stream_->add(stream_->materials, std::move(material), "add_material");
+    return Stream::run(stream_,
+                       [&](Stream& stream) { return stream.add(stream.materials, std::move(material), "add_material"); });
 }
 void Recorder::update_texture(std::uint32_t index, Texture texture) {
-    const std::lock_guard lock(stream_->calls);
-    stream_->update(stream_->textures, index, std::move(texture), "update_texture");
+    Stream::run(stream_, [&](Stream& stream) { stream.update(stream.textures, index, std::move(texture), "update_texture"); });
 }
 void Recorder::update_mesh(std::uint32_t index, Mesh mesh) {
-    const std::lock_guard lock(stream_->calls);
-    stream_->update(stream_->meshes, index, std::move(mesh), "update_mesh");
+    Stream::run(stream_, [&](Stream& stream) { stream.update(stream.meshes, index, std::move(mesh), "update_mesh"); });
 }
 void Recorder::update_material(std::uint32_t index, Material material) {
-    const std::lock_guard lock(stream_->calls);
-    stream_->update(stream_->materials, index, std::move(material), "update_material");
+    Stream::run(stream_, [&](Stream& stream) { stream.update(stream.materials, index, std::move(material), "update_material"); });
 }
 
 void Recorder::begin_frame(const View& view, double time, std::uint64_t index, std::uint64_t seed) {
-    const std::lock_guard lock(stream_->calls);
-    if (stream_->frame) {
-        (void)stream_->misused(
-            fail(Fault::usage, "record.begun_twice", "begin_frame() was called twice without end_frame() between"));
-        return;
-    }
-    stream_->frame = stream_->queue.empty_frame();
-    stream_->frame->view = view;
-    stream_->frame->time = time;
-    stream_->frame->index = index;
-    stream_->frame->seed = seed;
-    stream_->frame_bytes = sizeof(Frame);
-}
-
-void Recorder::draw(Draw draw) { stream_->append("draw", &Frame::draws, std::move(draw)); }
-void Recorder::draws(std::span<const Draw> batch) {
-    stream_->submit("draws", [&](Frame& frame) {
-        frame.draws.insert(frame.draws.end(), batch.begin(), batch.end());
-        std::uint64_t bytes = 0;
-        for (const Draw& draw : batch) bytes += footprint(draw);
-        return bytes;
+    Stream::run(stream_, [&](Stream& stream) {
+        if (stream.frame) {
+            (void)stream.misused(
+                fail(Fault::usage, "record.begun_twice", "begin_frame() was called twice without end_frame() between"));
+            return;
+        }
+        stream.frame = stream.queue.empty_frame();
+        stream.frame->view = view;
+        stream.frame->time = time;
+        stream.frame->index = index;
+        stream.frame->seed = seed;
+        stream.frame_bytes = sizeof(Frame);
     });
 }
-void Recorder::emitter(Emitter emitter) { stream_->append("emitter", &Frame::emitters, std::move(emitter)); }
-void Recorder::light(Light light) { stream_->append("light", &Frame::lights, std::move(light)); }
-std::uint32_t Recorder::add_blocker(Blocker blocker) {
-    return stream_->append("add_blocker", &Frame::blockers, std::move(blocker));
+
+void Recorder::draws(std::span<const Draw> batch) {
+    Stream::run(stream_, [&](Stream& stream) {
+        stream.submit("draws", [&](Frame& frame) {
+            frame.draws.insert(frame.draws.end(), batch.begin(), batch.end());
+            std::uint64_t bytes = 0;
+            for (const Draw& draw : batch) bytes += footprint(draw);
+            return bytes;
+        });
+    });
 }
-std::uint32_t Recorder::add_portal(Portal portal) { return stream_->append("add_portal", &Frame::portals, std::move(portal)); }
-void Recorder::light_volume(LightVolume volume) { stream_->append("light_volume", &Frame::light_volumes, std::move(volume)); }
-void Recorder::stage(StageChoice choice) { stream_->append("stage", &Frame::recorded_with, std::move(choice)); }
+void Recorder::draw(Draw draw) {
+    Stream::run(stream_, [&](Stream& stream) { stream.append("draw", &Frame::draws, std::move(draw)); });
+}
+void Recorder::emitter(Emitter emitter) {
+    Stream::run(stream_, [&](Stream& stream) { stream.append("emitter", &Frame::emitters, std::move(emitter)); });
+}
+void Recorder::light(Light light) {
+    Stream::run(stream_, [&](Stream& stream) { stream.append("light", &Frame::lights, std::move(light)); });
+}
+std::uint32_t Recorder::add_blocker(Blocker blocker) {
+    return Stream::run(stream_,
+                       [&](Stream& stream) { return stream.append("add_blocker", &Frame::blockers, std::move(blocker)); });
+}
+std::uint32_t Recorder::add_portal(Portal portal) {
+    return Stream::run(stream_, [&](Stream& stream) { return stream.append("add_portal", &Frame::portals, std::move(portal)); });
+}
+void Recorder::light_volume(LightVolume volume) {
+    Stream::run(stream_, [&](Stream& stream) { stream.append("light_volume", &Frame::light_volumes, std::move(volume)); });
+}
+void Recorder::stage(StageChoice choice) {
+    Stream::run(stream_, [&](Stream& stream) { stream.append("stage", &Frame::recorded_with, std::move(choice)); });
+}
 
 void Recorder::weather(const Rain& rain) {
-    stream_->submit("weather", [&](Frame& frame) {
-        frame.rain = rain;
-        return 0u;
+    Stream::run(stream_, [&](Stream& stream) {
+        stream.submit("weather", [&](Frame& frame) {
+            frame.rain = rain;
+            return 0u;
+        });
     });
 }
 
 void Recorder::environment(const Sun& sun, const Hemisphere& hemisphere, const Fog& fog, glm::vec3 background) {
-    stream_->submit("environment", [&](Frame& frame) {
-        frame.sun = sun;
-        frame.hemisphere = hemisphere;
-        frame.fog = fog;
-        frame.background = background;
-        return 0u;
+    Stream::run(stream_, [&](Stream& stream) {
+        stream.submit("environment", [&](Frame& frame) {
+            frame.sun = sun;
+            frame.hemisphere = hemisphere;
+            frame.fog = fog;
+            frame.background = background;
+            return 0u;
+        });
     });
 }
 
 void Recorder::camera(const Lens& lens, const Film& film) {
-    stream_->submit("camera", [&](Frame& frame) {
-        frame.lens = lens;
-        frame.film = film;
-        return 0u;
+    Stream::run(stream_, [&](Stream& stream) {
+        stream.submit("camera", [&](Frame& frame) {
+            frame.lens = lens;
+            frame.film = film;
+            return 0u;
+        });
     });
 }
 
 Result<void> Recorder::end_frame() {
-    const std::lock_guard lock(stream_->calls);
-    if (const Result<void> ready = stream_->usable(); !ready) return ready;
-    if (!stream_->frame)
-        return stream_->misused(fail(Fault::usage, "record.not_begun", "end_frame() was called without begin_frame()"));
-    const std::uint64_t number = stream_->frames++, bytes = std::exchange(stream_->frame_bytes, 0);
-    const Result<void> pushed =
-        stream_->queue.push(SubmittedFrame{std::move(stream_->frame), number}, bytes, fmt::format("frame {}", number));
-    return pushed ? stream_->report() : pushed;
+    return Stream::run(stream_, [&](Stream& stream) -> Result<void> {
+        if (const Result<void> ready = stream.usable(); !ready) return ready;
+        if (!stream.frame)
+            return stream.misused(fail(Fault::usage, "record.not_begun", "end_frame() was called without begin_frame()"));
+        const std::uint64_t number = stream.frames++, bytes = std::exchange(stream.frame_bytes, 0);
+        const std::string what = label(*stream.frame, number, stream.queue.budget());
+        const Result<void> pushed = stream.queue.push(SubmittedFrame{std::move(stream.frame), number}, bytes, what);
+        return pushed ? stream.report() : pushed;
+    });
 }
 
 Result<void> Recorder::record(Frame frame) {
-    const std::lock_guard lock(stream_->calls);
-    if (const Result<void> ready = stream_->usable(); !ready) return ready;
-    if (stream_->frame)
-        return stream_->misused(
-            fail(Fault::usage, "record.within_frame", "record() was called within begin_frame() and end_frame()"));
-    const std::uint64_t number = stream_->frames++, bytes = recorded_bytes(frame);
-    const Result<void> pushed = stream_->queue.push(WholeFrame{std::make_unique<Frame>(std::move(frame)), number}, bytes,
-                                                    fmt::format("frame {}", number));
-    return pushed ? stream_->report() : pushed;
+    return Stream::run(stream_, [&](Stream& stream) -> Result<void> {
+        if (const Result<void> ready = stream.usable(); !ready) return ready;
+        if (stream.frame)
+            return stream.misused(
+                fail(Fault::usage, "record.within_frame", "record() was called within begin_frame() and end_frame()"));
+        const std::uint64_t number = stream.frames++, bytes = recorded_bytes(frame);
+        const std::string what = label(frame, number, stream.queue.budget());
+        const Result<void> pushed = stream.queue.push(WholeFrame{std::make_unique<Frame>(std::move(frame)), number}, bytes, what);
+        return pushed ? stream.report() : pushed;
+    });
 }
 
 Result<void> Recorder::thumbnail(const Texture& picture) {
-    const std::lock_guard lock(stream_->calls);
-    if (const Result<void> ready = stream_->usable(); !ready) return ready;
-    Result<std::vector<std::byte>> encoded = encode_picture(picture);
-    if (!encoded) return encoded.error();
-    const std::uint64_t bytes = encoded->size();
-    return stream_->queue.push(EncodedThumbnail{*std::move(encoded), picture.texels.size()}, bytes, "the thumbnail");
+    return Stream::run(stream_, [&](Stream& stream) -> Result<void> {
+        if (const Result<void> ready = stream.usable(); !ready) return ready;
+        Result<std::vector<std::byte>> encoded = encode_picture(picture);
+        if (!encoded) return encoded.error();
+        const std::uint64_t bytes = encoded->size();
+        return stream.queue.push(EncodedThumbnail{*std::move(encoded), picture.texels.size()}, bytes, "the thumbnail");
+    });
 }
 
 Result<void> Recorder::flush() {
-    const std::lock_guard lock(stream_->calls);
-    if (const Result<void> ready = stream_->usable(); !ready) return ready;
-    stream_->queue.drain();
-    return stream_->report();
+    return Stream::run(stream_, [&](Stream& stream) -> Result<void> {
+        if (const Result<void> ready = stream.usable(); !ready) return ready;
+        stream.queue.drain();
+        return stream.report();
+    });
 }
 
-std::uint64_t Recorder::frames_written() const { return stream_->written; }
-RecorderLoad Recorder::load() const { return stream_->queue.load(); }
+std::uint64_t Recorder::frames_written() const { return stream_ ? stream_->written.load() : 0; }
+RecorderLoad Recorder::load() const { return stream_ ? stream_->queue.load() : RecorderLoad(); }
 
 Result<void> Recorder::finish() {
-    const std::lock_guard lock(stream_->calls);
-    if (const Result<void> ready = stream_->usable(); !ready) return ready;
-    if (stream_->frame) return stream_->misused(fail(Fault::usage, "record.not_ended", "finish() was called before end_frame()"));
-    stream_->stop();
-    stream_->finished = true;
-    const Result<void> finished = stream_->writer.finish();
-    return finished ? stream_->report() : finished;
+    return Stream::run(stream_, [&](Stream& stream) -> Result<void> {
+        if (const Result<void> ready = stream.usable(); !ready) return ready;
+        if (stream.frame) return stream.misused(fail(Fault::usage, "record.not_ended", "finish() was called before end_frame()"));
+        stream.stop();
+        stream.finished = true;
+        const Result<void> finished = stream.writer.finish();
+        return finished ? stream.report() : finished;
+    });
 }
 
 }  // namespace strata

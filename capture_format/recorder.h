@@ -9,8 +9,10 @@
 //   Files      A killed process (kill -9) loses at most what was not written yet; flush() waits until nothing is. The file then
 //              opens with Partial::allowed, up to its last whole frame. A power cut may lose what the system had not written.
 //   Errors     What goes wrong on the thread is returned by the next end_frame(), record(), flush() or finish(). A frame that
-//              check_frame() refuses is left out and later ones follow. After a failed write, or calls out of order,
-//              nothing more is written and every call returns that error.
+//              check_frame() refuses is left out and later ones follow. After a failed write, without memory, or after calls
+//              out of order nothing more is written and every call returns that error; no call throws. A file that others
+//              write to, cut, delete or move meanwhile is an error, at the latest of finish(); so is a second recorder on it.
+//              A recorder that was moved from returns errors.
 #pragma once
 
 #include <cstdint>

@@ -23,7 +23,9 @@ bool RecordingQueue::worth_waking() const {
 
 Result<void> RecordingQueue::push(Recorded item, std::uint64_t bytes, std::string_view what) {
     if (bytes > budget_) {
-        return fail(Fault::usage, "record.budget", "{resource} takes {bytes} bytes, more than the recorder's budget of {budget}",
+        return fail(Fault::usage, "record.budget",
+                    "{resource} takes {bytes} bytes, more than the recorder's budget of {budget}; allow more with "
+                    "RecorderOptions::budget_bytes",
                     what, bytes, budget_);
     }
     std::unique_lock lock(mutex_);
@@ -35,10 +37,11 @@ Result<void> RecordingQueue::push(Recorded item, std::uint64_t bytes, std::strin
         --drainers_;
         load_.waited_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
+    const bool adds_frame = is_frame(item);
+    entries_.push_back({std::move(item), bytes});  // first: without memory nothing is counted
     load_.held_bytes += bytes;
     load_.most_held_bytes = std::max(load_.most_held_bytes, load_.held_bytes);
-    frames_ += is_frame(item);
-    entries_.push_back({std::move(item), bytes});
+    frames_ += adds_frame;
     if (!working_ && worth_waking()) work_.notify_one();
     return {};
 }

@@ -54,6 +54,7 @@ public:
     /// Nothing is pushed any more.
     void close();
     RecorderLoad load() const;
+    std::uint64_t budget() const { return budget_; }
 
     /// Frames that were written and emptied go round, so that the application does not have to grow them again.
     void give_back(std::unique_ptr<Frame>);

@@ -15,6 +15,8 @@
 
 #include <fmt/core.h>
 
+#include "capture_format/safe_variant.h"
+
 namespace strata {
 
 /// Why something could not be done. The kinds are the program's exit codes.
@@ -60,7 +62,7 @@ private:
 /// A number or a word of an error's sentence, by the name of its placeholder.
 struct ErrorField {
     std::string_view name;
-    std::variant<std::int64_t, std::uint64_t, double, std::string> value;
+    SafeVariant<std::int64_t, std::uint64_t, double, std::string> value;
 };
 
 struct [[nodiscard]] Error {

@@ -7,7 +7,8 @@
 
 namespace strata {
 
-Result<void> check_capture(const std::filesystem::path& path, std::uint64_t memory_budget) {
+Result<void> check_capture(const std::filesystem::path& path, std::uint64_t memory_budget,
+                           const std::function<Result<void>(const Frame&)>& also) {
     MemoryBudget budget(memory_budget);
     const auto container = Container::open(path);
     if (!container) return container.error();
@@ -20,8 +21,11 @@ Result<void> check_capture(const std::filesystem::path& path, std::uint64_t memo
     }
     const auto capture = Capture::open(path, Partial::refused, memory_budget);
     if (!capture) return capture.error();
-    for (std::size_t i = 0; i < capture->frame_count(); ++i)
-        if (const auto frame = capture->frame(i); !frame) return within(frame.error(), "frame {frame}", i);
+    for (std::size_t i = 0; i < capture->frame_count(); ++i) {
+        const auto frame = capture->frame(i);
+        if (!frame) return within(frame.error(), "frame {frame}", i);
+        if (const auto sound = also ? also(*frame) : Result<void>(); !sound) return within(sound.error(), "frame {frame}", i);
+    }
     return {};
 }
 

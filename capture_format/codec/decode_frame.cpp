@@ -391,9 +391,13 @@ Result<Frame> decode_frame(std::span<const std::byte> section, BlobStore& blobs,
     const schema::Frame& table = *schema::GetFrame(section.data());
     const std::uint64_t bytes = bulk_bytes(table) + table_bytes(table);
     if (const auto room = budget.take(bytes, 1, "the frame"); !room) return room.error();
+    const struct Taken {
+        MemoryBudget& budget;
+        std::uint64_t bytes;
+        ~Taken() { budget.give_back(bytes); }
+    } taken{budget, bytes};
     Decoder decoder(blobs);
     Frame frame = decoder.decode(table);
-    budget.give_back(bytes);
     if (decoder.error()) return *decoder.error();
     return frame;
 }

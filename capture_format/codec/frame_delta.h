@@ -5,13 +5,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "capture_format/container/compression.h"
 #include "capture_format/result.h"
-
-struct ZSTD_CCtx_s;
 
 namespace strata {
 
@@ -54,16 +52,12 @@ private:
     void remember(Words);
     void clear();
 
-    struct EndCompression {
-        void operator()(ZSTD_CCtx_s*) const;
-    };
-
-    std::array<Words, 4> history_;                              ///< the frames before, newest first
-    std::uint32_t known_ = 0;                                   ///< of them
-    std::uint32_t reach_ = 0;                                   ///< frames since the key, which counts
-    Words forecast_;                                            ///< what every word of the next frame is expected to be
-    std::vector<std::uint32_t> moving_;                         ///< which words are expected to go on moving
-    std::unique_ptr<ZSTD_CCtx_s, EndCompression> compression_;  ///< kept from frame to frame: its tables take 0.3 ms to set up
+    std::array<Words, 4> history_;       ///< the frames before, newest first
+    std::uint32_t known_ = 0;            ///< of them
+    std::uint32_t reach_ = 0;            ///< frames since the key, which counts
+    Words forecast_;                     ///< what every word of the next frame is expected to be
+    std::vector<std::uint32_t> moving_;  ///< which words are expected to go on moving
+    Compression compression_;
 };
 
 }  // namespace strata

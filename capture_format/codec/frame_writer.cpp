@@ -37,6 +37,31 @@ ResourceShapes shapes_of(const StoredResources& resources) {
     return shapes;
 }
 
+/// What a frame takes at the very least, encoded. The builder of flatbuffers does not check its limit of 2 GiB in a release
+/// build.
+std::uint64_t least_bytes(const Frame& frame, const StoredResources& resources) {
+    constexpr std::uint64_t draw = 2 * sizeof(glm::dmat4), other = 64, clip_plane = 32;
+    const auto each = [](const auto& list, std::uint64_t bytes) {
+        std::uint64_t sum = list.size() * bytes;
+        for (const auto& one : list) sum += one.name.size();
+        return sum;
+    };
+    std::uint64_t sum = each(frame.draws, draw) + each(frame.emitters, other) + each(frame.lights, other) +
+                        each(resources.materials, 2 * other) + each(resources.meshes, 2 * other) +
+                        other * (resources.textures.size() + frame.blockers.size() + frame.portals.size());
+    for (const Light& light : frame.lights)
+        sum += sizeof(std::uint32_t) * (light.blockers.size() + light.portals.size()) + clip_plane * light.clip_planes.size();
+    return sum;
+}
+
+Result<void> check_size(const Frame& frame, std::uint64_t number, std::uint64_t bytes) {
+    if (bytes <= largest_frame_section) return {};
+    return fail(Fault::usage, "record.frame_too_large",
+                "frame {frame} with {draws} draws cannot be recorded: without its resources it takes {bytes} bytes or more; the "
+                "limit is {most}, about 700000 draws",
+                number, frame.draws.size(), bytes, largest_frame_section);
+}
+
 /// What a reader would refuse as bad input is a mistake of the application that records it.
 Error refused(std::uint64_t number, const Error& why) {
     Error error = within(why, "frame {frame} cannot be recorded", number);
@@ -60,7 +85,7 @@ Result<FrameWriter> FrameWriter::create(const std::filesystem::path& path, std::
     return writer;
 }
 
-Error FrameWriter::give_up(Error error) {
+const Error& FrameWriter::give_up(Error error) {
     if (!broken_) broken_ = std::move(error);
     return *broken_;
 }
@@ -122,14 +147,11 @@ Result<void> FrameWriter::write_whole(const Frame& frame, std::uint64_t number) 
 
 Result<void> FrameWriter::write(const Frame& frame, const StoredResources& resources, std::uint64_t number) {
     if (broken_) return *broken_;
+    if (const auto fits = check_size(frame, number, least_bytes(frame, resources)); !fits) return fits;
     const std::vector<std::byte> flatbuffer = encode_frame(frame, resources, blobs_);
+    if (const auto fits = check_size(frame, number, flatbuffer.size()); !fits) return fits;
     // What could not be read back is not written.
     if (const Result<void> verified = verify_frame(flatbuffer); !verified) return refused(number, verified.error());
-    if (flatbuffer.size() > largest_frame_section) {
-        return fail(Fault::usage, "record.frame_too_large",
-                    "frame {frame} cannot be recorded: it takes {bytes} bytes without its resources; the limit is {most}", number,
-                    flatbuffer.size(), largest_frame_section);
-    }
     if (const Result<void> written = write_blobs(); !written) return written;
     const auto runs = chain_.newest().empty() ? std::vector<FrameChain::Run>() : draw_runs(chain_.newest(), flatbuffer);
     const std::vector<std::byte> payload = chain_.pack(flatbuffer, echo_of(flatbuffer), runs);

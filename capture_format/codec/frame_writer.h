@@ -38,7 +38,8 @@ public:
 
     /// The first failed write; nothing is written after it and every call returns it.
     const std::optional<Error>& broken() const { return broken_; }
-    Error give_up(Error);
+    /// Makes that the error, unless there is one. Takes no memory.
+    const Error& give_up(Error);
     const std::string& path() const { return file_.path(); }
 
 private:

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <memory>
 #include <optional>
 
-#include <zstd.h>
-
+#include "capture_format/container/compression.h"
 #include "capture_format/container/ray_records.h"
 
 namespace strata {
@@ -125,16 +123,16 @@ public:
 
     /// Estimate for all bytes.
     double packed_bytes(const BlobFilter& filter) {
-        std::vector<std::byte> tried(part_.size()), packed(ZSTD_compressBound(part_.size()));
+        std::vector<std::byte> tried(part_.size()), packed;
         rearrange(part_, filter, tried);
-        const std::size_t size = ZSTD_compressCCtx(context_.get(), packed.data(), packed.size(), tried.data(), tried.size(), 1);
-        return double(size) * double(whole_) / double(part_.size());
+        compression_.append(packed, tried, 1);
+        return double(packed.size()) * double(whole_) / double(part_.size());
     }
 
 private:
     std::size_t whole_;
     std::span<const std::byte> part_;
-    std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context_{ZSTD_createCCtx(), &ZSTD_freeCCtx};
+    Compression compression_;
 };
 
 /// The best filter found so far, and what it is expected to leave.

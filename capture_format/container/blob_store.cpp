@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cassert>
 #include <charconv>
 #include <cstddef>
 #include <cstring>
@@ -22,8 +21,8 @@
 #include <utility>
 
 #include <xxhash.h>
-#include <zstd.h>
 
+#include "capture_format/container/compression.h"
 #include "capture_format/container/picture.h"
 
 namespace strata {
@@ -41,8 +40,6 @@ std::size_t entry_bytes(std::uint32_t version) {
     return version == 1 ? offsetof(IndexEntry, filtered_bytes) : sizeof(IndexEntry);
 }
 
-// zstd's default: 3 shrank a peer's captures 50 times at 400 MB/s; 19 gains a tenth and is a hundred times slower.
-constexpr int compression_level = 3;
 // Sections of so many bytes are packed by several threads, compressed in jobs of 8 MiB (zstd's, at this level). What is recorded
 // bit by bit stays below: an application keeps its cores (only positions that lie on rays take a second one, in ray_records.cpp).
 constexpr std::uint64_t least_for_threads = std::uint64_t{16} << 20;
@@ -151,26 +148,9 @@ PackedBlobs BlobCollector::pack(std::span<Pending> blobs) {
 
 /// The zstd frame of the blobs.
 void BlobCollector::append_compressed(PackedBlobs& section, std::span<const Pending> blobs) {
-    const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), &ZSTD_freeCCtx);
-    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, compression_level);
-    ZSTD_CCtx_setPledgedSrcSize(context.get(), section.raw_bytes);
-    // A zstd that was built without threads refuses this, and uses none. How many there are does not change the bytes.
-    if (section.raw_bytes >= least_for_threads)
-        ZSTD_CCtx_setParameter(context.get(), ZSTD_c_nbWorkers, static_cast<int>(threads()));
-    // Cleared memory would be touched before it is used, and most of it never is.
-    const std::size_t bound = ZSTD_compressBound(section.raw_bytes);
-    const auto packed = std::make_unique_for_overwrite<std::byte[]>(bound);
-    ZSTD_outBuffer out = {packed.get(), bound, 0};
-    for (const Pending& blob : blobs) {
-        ZSTD_inBuffer in = {blob.bytes.data(), blob.bytes.size(), 0};
-        const bool is_last = &blob == &blobs.back();
-        std::size_t left = 1;
-        while (in.pos < in.size || (is_last && left > 0)) {
-            left = ZSTD_compressStream2(context.get(), &out, &in, is_last ? ZSTD_e_end : ZSTD_e_continue);
-            assert(!ZSTD_isError(left));  // the bound is zstd's own
-        }
-    }
-    section.stored.insert(section.stored.end(), packed.get(), packed.get() + out.pos);
+    std::vector<std::span<const std::byte>> parts;
+    for (const Pending& blob : blobs) parts.push_back(blob.bytes);
+    Compression().append(section.stored, parts, section.raw_bytes < least_for_threads ? 0 : threads());
 }
 
 Result<BlobStore> BlobStore::open(const Container& container, MemoryBudget& budget, SectionType type) {
@@ -259,9 +239,10 @@ Result<void> BlobStore::decompress(BlobsSection& blobs) {
         offset += blob.bytes;
         filtered_offset += blob.filtered_bytes;
     }
+    if (const auto taken = budget_->take(blobs.raw_bytes, 1, container_->whereabouts(blobs.number)); !taken) return taken;
     blobs.bytes = std::move(raw);
     blobs.held = true;
-    return budget_->take(blobs.raw_bytes, 1, container_->whereabouts(blobs.number));
+    return {};
 }
 
 /// The content of its zstd frame.
@@ -270,18 +251,10 @@ Result<std::unique_ptr<std::byte[]>> BlobStore::unpack(const BlobsSection& blobs
     if (!stored) return stored.error();
     const std::span<const std::byte> frame = std::span(*stored).subspan(blobs.index_bytes);
     const std::uint64_t raw_bytes = container_->sections()[blobs.number].raw_bytes;
-    // Only a frame that states the size the section states is worth allocating for.
-    if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != raw_bytes) {
-        return container_->located(blobs.number, fail(Fault::bad_input, "capture.section.zstd_size",
-                                                      "the section does not hold a zstd frame of {bytes} bytes", raw_bytes));
-    }
+    if (const auto sized = check_frame_size(frame, raw_bytes); !sized) return container_->located(blobs.number, sized.error());
     auto raw = std::make_unique_for_overwrite<std::byte[]>(raw_bytes);  // clearing it takes as long as undoing a filter
-    const std::size_t written = ZSTD_decompress(raw.get(), raw_bytes, frame.data(), frame.size());
-    if (written != raw_bytes) {
-        return container_->located(
-            blobs.number, fail(Fault::bad_input, "capture.section.decompress", "the section does not decompress: {reason}",
-                               ZSTD_isError(written) ? ZSTD_getErrorName(written) : "it ends early"));
-    }
+    if (const auto done = strata::decompress(frame, {raw.get(), raw_bytes}); !done)
+        return container_->located(blobs.number, done.error());
     return raw;
 }
 

@@ -284,6 +284,7 @@ Result<ContainerWriter> ContainerWriter::extend(const std::filesystem::path& pat
 }
 
 Result<void> ContainerWriter::add(const Payload& payload) {
+    if (const auto unchanged = file_.check_content(); !unchanged) return unchanged;
     const Section section = {.offset = file_.size(),
                              .type = payload.type,
                              .version = payload.version,
@@ -293,13 +294,14 @@ Result<void> ContainerWriter::add(const Payload& payload) {
     const Prefix prefix = prefix_of(section);
     constexpr std::array<std::byte, 8> zeros{};
     const std::span<const std::byte> padding = std::span(zeros).first(padded(section.stored_bytes) - section.stored_bytes);
+    sections_.push_back(section);  // before it is written: with the section in the file nothing can fail any more
     for (const std::span<const std::byte> part : {bytes_of(prefix), payload.stored, padding}) {
         if (const Result<void> written = file_.append(part); !written) {
             file_.cut_back(section.offset);
+            sections_.pop_back();
             return written.error();
         }
     }
-    sections_.push_back(section);
     return {};
 }
 
@@ -314,7 +316,11 @@ Result<void> ContainerWriter::finish() {
     }
     const Trailer trailer = {file_.size(), end_magic};
     append(bytes_of(trailer));
-    return add({.type = SectionType::directory, .version = 1, .stored = directory, .raw_bytes = directory.size()});
+    const Payload payload = {.type = SectionType::directory, .version = 1, .stored = directory, .raw_bytes = directory.size()};
+    if (const auto added = add(payload); !added) return added;
+    if (const auto unchanged = file_.check_content(); !unchanged) return unchanged;
+    file_.release();
+    return file_.check_path();
 }
 
 }  // namespace strata

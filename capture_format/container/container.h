@@ -55,6 +55,7 @@ public:
     Error located(std::size_t section, const Error&) const;
     /// "smoke.strata: section 2 (blobs) at offset 4096".
     std::string whereabouts(std::size_t section) const;
+    const std::string& file_name() const { return name_; }  ///< the path, or what stands for it
     std::uint64_t file_bytes() const { return file_bytes_; }
     std::uint32_t version() const { return version_; }
 
@@ -92,8 +93,9 @@ public:
     /// Continues a finished capture: its sections stay as they are, a new directory lists old and new ones.
     static Result<ContainerWriter> extend(const std::filesystem::path&);
 
+    /// Fails (usage) where others deleted the file or wrote to it, too.
     Result<void> add(const Payload&);
-    /// Writes the directory.
+    /// Writes the directory. Fails (usage), then with the file complete, where others moved it.
     Result<void> finish();
     const std::string& path() const { return file_.path(); }
 

@@ -90,17 +90,53 @@ bool FileLock::is_current() const {
 }
 
 Result<GrowingFile> GrowingFile::open(const std::filesystem::path& path, int flags) {
-    Descriptor descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666));
-    if (descriptor.number() < 0)
-        return fail(Fault::usage, "file.cannot_write", "cannot write {file}: {reason}", path.string(), system_words());
+    std::error_code unknown;
+    // Named first: without memory for the names no file is made.
+    GrowingFile file(path.string(), std::filesystem::absolute(path, unknown), Descriptor(-1));
+    // Whoever cuts the file meanwhile leaves it too short: behind the cut nothing is written that would hide it.
+    file.descriptor_ = Descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_APPEND | flags, 0666));
+    if (file.descriptor_.number() < 0)
+        return fail(Fault::usage, "file.cannot_write", "cannot write {file}: {reason}", file.path_, system_words());
     struct stat status {};
-    const bool known = ::fstat(descriptor.number(), &status) == 0;
-    return GrowingFile(path.string(), std::move(descriptor), known ? static_cast<std::uint64_t>(status.st_size) : 0);
+    file.is_file_ = ::fstat(file.descriptor_.number(), &status) == 0 && S_ISREG(status.st_mode);
+    if (file.is_file_) file.size_ = static_cast<std::uint64_t>(status.st_size);
+    return file;
 }
 
-Result<GrowingFile> GrowingFile::create(const std::filesystem::path& path) { return open(path, O_CREAT | O_TRUNC); }
+Result<GrowingFile> GrowingFile::create(const std::filesystem::path& path) {
+    Result<GrowingFile> file = open(path, O_CREAT);
+    if (!file || !file->is_file_) return file;
+    // Some network file systems have no locks: there both go on, and check_content() notices.
+    if (uninterrupted([&] { return ::flock(file->descriptor_.number(), LOCK_EX | LOCK_NB); }) != 0 && errno == EWOULDBLOCK)
+        return fail(Fault::usage, "file.in_use", "{file} is being written by another program or recorder; choose another file",
+                    file->path_);
+    if (::ftruncate(file->descriptor_.number(), 0) != 0)
+        return fail(Fault::usage, "file.cannot_write", "cannot write {file}: {reason}", file->path_, system_words());
+    file->size_ = 0;
+    return file;
+}
 
-Result<GrowingFile> GrowingFile::extend(const std::filesystem::path& path) { return open(path, O_APPEND); }
+Result<GrowingFile> GrowingFile::extend(const std::filesystem::path& path) { return open(path, 0); }
+
+Result<void> GrowingFile::check_content() const {
+    struct stat now {};
+    if (!is_file_ || ::fstat(descriptor_.number(), &now) != 0) return {};
+    if (now.st_nlink == 0) return fail(Fault::usage, "file.deleted", "{file} was deleted while it was written", path_);
+    if (static_cast<std::uint64_t>(now.st_size) == size_) return {};
+    return fail(Fault::usage, "file.changed",
+                "another program changed {file} while it was written: it has {bytes} bytes and should have {wanted}", path_,
+                static_cast<std::uint64_t>(now.st_size), size_);
+}
+
+Result<void> GrowingFile::check_path() const {
+    struct stat written {
+    }, there{};
+    if (!is_file_ || ::fstat(descriptor_.number(), &written) != 0) return {};
+    if (::stat(place_.c_str(), &there) == 0 && is_same_file(written, there)) return {};
+    return fail(Fault::usage, "file.moved", "{file} was moved or replaced while it was written", path_);
+}
+
+void GrowingFile::release() { ::flock(descriptor_.number(), LOCK_UN); }
 
 Result<void> GrowingFile::append(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
@@ -113,10 +149,7 @@ Result<void> GrowingFile::append(std::span<const std::byte> bytes) {
 }
 
 void GrowingFile::cut_back(std::uint64_t size) {
-    if (::ftruncate(descriptor_.number(), static_cast<off_t>(size)) == 0 &&
-        ::lseek(descriptor_.number(), static_cast<off_t>(size), SEEK_SET) >= 0) {
-        size_ = size;
-    }
+    if (::ftruncate(descriptor_.number(), static_cast<off_t>(size)) == 0) size_ = size;
 }
 
 }  // namespace strata

@@ -71,7 +71,8 @@ private:
 /// A file written at its end only.
 class GrowingFile {
 public:
-    /// A new file, or an old one emptied.
+    /// A new file, or an old one emptied. Fails (usage) where another one that was created has this file and is not released; two
+    /// would overwrite each other.
     static Result<GrowingFile> create(const std::filesystem::path&);
     /// An existing file, to be continued.
     static Result<GrowingFile> extend(const std::filesystem::path&);
@@ -79,16 +80,24 @@ public:
     Result<void> append(std::span<const std::byte>);
     /// Forgets what was appended beyond the size, as far as the file system lets it.
     void cut_back(std::uint64_t size);
+    /// Fails (usage) where others wrote to the file, cut it, or deleted it.
+    Result<void> check_content() const;
+    /// Fails (usage) where the path leads to another file by now, or to none.
+    Result<void> check_path() const;
+    /// Lets others create it.
+    void release();
     std::uint64_t size() const { return size_; }
     const std::string& path() const { return path_; }
 
 private:
-    GrowingFile(std::string path, Descriptor descriptor, std::uint64_t size)
-        : path_(std::move(path)), descriptor_(std::move(descriptor)), size_(size) {}
+    GrowingFile(std::string path, std::filesystem::path place, Descriptor descriptor)
+        : path_(std::move(path)), place_(std::move(place)), descriptor_(std::move(descriptor)) {}
     static Result<GrowingFile> open(const std::filesystem::path&, int flags);
 
     std::string path_;
+    std::filesystem::path place_;  ///< absolute: the program may change its folder
     Descriptor descriptor_;
+    bool is_file_ = false;  ///< and not a pipe or a device, which have no size
     std::uint64_t size_ = 0;
 };
 

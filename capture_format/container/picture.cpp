@@ -8,9 +8,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include <zstd.h>
-
 #include "capture_format/container/blob_filter.h"
+#include "capture_format/container/compression.h"
 
 namespace strata {
 namespace {
@@ -27,8 +26,7 @@ bool fits(std::uint32_t width, std::uint32_t height) {
 std::vector<std::byte> unpacked(std::span<const std::byte> payload, std::size_t count, std::uint32_t version) {
     if (version == 1) return payload.size() == count ? std::vector(payload.begin(), payload.end()) : std::vector<std::byte>();
     std::vector<std::byte> rearranged(count), texels(count);
-    const std::size_t written = ZSTD_decompress(rearranged.data(), count, payload.data(), payload.size());
-    const bool whole = written == count && undo_filter(rearranged, texel_filter, texels);
+    const bool whole = decompress(payload, rearranged) && undo_filter(rearranged, texel_filter, texels);
     return whole ? texels : std::vector<std::byte>();
 }
 
@@ -51,10 +49,9 @@ Result<std::vector<std::byte>> encode_picture(const Texture& picture) {
     }
     const std::vector<std::byte> filtered = rearranged(picture.texels, texel_filter);
     const std::uint32_t extent[] = {picture.width, picture.height};
-    std::vector<std::byte> payload(sizeof extent + ZSTD_compressBound(filtered.size()));
+    std::vector<std::byte> payload(sizeof extent);
     std::memcpy(payload.data(), extent, sizeof extent);
-    payload.resize(sizeof extent + ZSTD_compress(&payload[sizeof extent], payload.size() - sizeof extent, filtered.data(),
-                                                 filtered.size(), ZSTD_CLEVEL_DEFAULT));
+    Compression().append(payload, filtered);
     return payload;
 }
 

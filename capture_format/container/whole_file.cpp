@@ -126,9 +126,12 @@ Result<WholeFile> WholeFile::begin(const std::filesystem::path& wanted) {
     if (is_link && problem) return unwritable(wanted, problem.value());
 
     const std::scoped_lock held(lock);
-    Result<std::filesystem::path> temporary = make_beside(target);
+    auto pending = std::make_unique<Pending>(std::move(target), std::filesystem::path());
+    pending->in_place = true;  // until there is a temporary: without memory for its place in the list none is made
+    Result<std::filesystem::path> temporary = make_beside(pending->target);
     if (!temporary) return temporary.error();
-    auto pending = std::make_unique<Pending>(target, *std::move(temporary));
+    pending->temporary = *std::move(temporary);
+    pending->in_place = false;
     if (exists) ::chmod(pending->temporary.c_str(), old.st_mode & 0777);
     pending->enlist();
     return WholeFile(std::move(pending));

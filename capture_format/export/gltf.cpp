@@ -15,6 +15,7 @@
 #include "capture_format/frame/light.h"
 #include "capture_format/frame/mesh.h"
 #include "capture_format/light_types.h"
+#include "capture_format/out_of_memory.h"
 
 namespace strata {
 namespace {
@@ -140,7 +141,7 @@ private:
 
     /// Header, JSON padded with spaces, bytes padded with zeros (glTF 2.0, 4.4).
     std::vector<std::byte> glb() const {
-        std::string json = parts_.root.dump(-1, ' ', false, Json::error_handler_t::replace);
+        std::string json = parts_.root.dump();
         json.resize((json.size() + 3) / 4 * 4, ' ');
         std::vector<std::byte> file;
         const auto append = [&](std::span<const std::byte> bytes) { file.insert(file.end(), bytes.begin(), bytes.end()); };
@@ -173,19 +174,23 @@ private:
 }  // namespace
 
 Result<ExportedScene> to_gltf(const Frame& frame) {
-    ExportedScene scene = SceneExport(frame).run();
-    if (scene.glb.size() > 0xffffffffu) {
-        return fail(Fault::usage, "export.gltf.too_large", "the frame takes {bytes} bytes as glTF; a .glb holds at most 4 GiB",
-                    scene.glb.size());
-    }
-    return scene;
+    return within_memory("export", "the frame", [&]() -> Result<ExportedScene> {
+        ExportedScene scene = SceneExport(frame).run();
+        if (scene.glb.size() > 0xffffffffu) {
+            return fail(Fault::usage, "export.gltf.too_large",
+                        "the frame takes {bytes} bytes as glTF; a .glb holds at most 4 GiB", scene.glb.size());
+        }
+        return scene;
+    });
 }
 
 Result<std::vector<std::string>> export_gltf(const Frame& frame, const std::filesystem::path& path) {
     auto scene = to_gltf(frame);
     if (!scene) return scene.error();
-    if (const auto written = write_whole_file(path, scene->glb); !written) return written.error();
-    return std::move(scene->warnings);
+    return within_memory("write", path.native(), [&]() -> Result<std::vector<std::string>> {
+        if (const auto written = write_whole_file(path, scene->glb); !written) return written.error();
+        return std::move(scene->warnings);
+    });
 }
 
 }  // namespace strata

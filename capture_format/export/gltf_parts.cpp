@@ -56,7 +56,7 @@ std::size_t Parts::add_indices(std::span<const std::uint32_t> indices) {
 
 void Parts::use(const std::string& extension) {
     Json& used = root["extensionsUsed"];
-    if (std::find(used.begin(), used.end(), extension) == used.end()) used.push_back(extension);
+    if (!used.has_text(extension)) used.push_back(extension);
 }
 
 }  // namespace strata::to_gltf_parts

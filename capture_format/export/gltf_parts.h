@@ -7,11 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include "capture_format/export/json.h"
 
 namespace strata::to_gltf_parts {
-
-using Json = nlohmann::ordered_json;
 
 class Parts {
 public:

@@ -4,6 +4,8 @@
 
 #include <cassert>
 #include <memory>
+#include <new>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -41,8 +43,11 @@ std::string filtered(std::size_t row_bytes, std::span<const std::byte> texels) {
 std::string packed(std::string_view rows) {
     const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
         libdeflate_alloc_compressor(compression_level), libdeflate_free_compressor);
+    if (!compressor) throw std::bad_alloc();
     std::string stream(libdeflate_zlib_compress_bound(compressor.get(), rows.size()), '\0');
-    stream.resize(libdeflate_zlib_compress(compressor.get(), rows.data(), rows.size(), stream.data(), stream.size()));
+    const std::size_t size = libdeflate_zlib_compress(compressor.get(), rows.data(), rows.size(), stream.data(), stream.size());
+    if (size == 0) throw std::logic_error("libdeflate wants more room than it asked for");
+    stream.resize(size);
     return stream;
 }
 

@@ -3,12 +3,13 @@
 
 #include <cstdint>
 #include <string>
-#include <variant>
 #include <vector>
+
+#include "capture_format/safe_variant.h"
 
 namespace strata {
 
-using SettingValue = std::variant<std::int64_t, double, std::string>;
+using SettingValue = SafeVariant<std::int64_t, double, std::string>;
 struct Setting {
     std::string key;
     SettingValue value;

@@ -2,6 +2,7 @@
 // nearer one, so the earlier sample of the file comes last.
 #include "capture_format/import/deep.h"
 
+#include <oneapi/tbb/cache_aligned_allocator.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <stdexcept>
 
 #include "capture_format/container/file.h"
 #include "capture_format/container/picture.h"
@@ -22,6 +24,7 @@
 #include "capture_format/import/deep_triangles.h"
 #include "capture_format/inspection.h"
 #include "capture_format/memory_budget.h"
+#include "capture_format/out_of_memory.h"
 
 namespace strata {
 namespace {
@@ -29,6 +32,14 @@ namespace {
 /// Three vertices of position and color with their indices. They are there three times while the frame is recorded: in its
 /// meshes, rearranged, and compressed.
 constexpr std::uint64_t bytes_per_fragment = 3 * 3 * (sizeof(glm::vec3) + sizeof(glm::vec4) + sizeof(std::uint32_t));
+
+/// At its first use oneTBB looks for an allocator by dlopen(), which in glibc 2.36 ends a program that has no memory for a
+/// message. It has when it starts.
+[[maybe_unused]] const bool tbb_has_allocator = [] {
+    oneapi::tbb::cache_aligned_allocator<char> allocator;
+    allocator.deallocate(allocator.allocate(1), 1);
+    return true;
+}();
 
 constexpr DeepLayer gray[] = {{"deep samples", glm::vec3(0)}};
 // A sample that hides red, green and blue differently is three at one depth: channels do not know of each other.
@@ -146,9 +157,14 @@ private:
             failed = !result;
         };
         using Mode = tbb::filter_mode;
-        tbb::parallel_pipeline(slots.size(), tbb::make_filter<void, Slot*>(Mode::serial_in_order, take) &
-                                                 tbb::make_filter<Slot*, Slot*>(Mode::parallel, make) &
-                                                 tbb::make_filter<Slot*, void>(Mode::serial_in_order, join));
+        try {
+            tbb::parallel_pipeline(slots.size(), tbb::make_filter<void, Slot*>(Mode::serial_in_order, take) &
+                                                     tbb::make_filter<Slot*, Slot*>(Mode::parallel, make) &
+                                                     tbb::make_filter<Slot*, void>(Mode::serial_in_order, join));
+        } catch (const std::runtime_error& refused) {  // of pthread_create, by oneTBB 2021.8
+            return fail(Fault::device_lacks, "machine.no_thread", "this machine cannot start another thread: {reason}",
+                        refused.what());
+        }
         return result;
     }
 
@@ -255,16 +271,20 @@ private:
 }  // namespace
 
 Result<ImportedDeep> import_deep(std::span<const std::byte> bytes, std::string_view name, const DeepOptions& options) {
-    const auto file = DeepFile::open(bytes, name, options.part);
-    if (!file) return file.error();
-    auto imported = DeepImport(*file, options).run();
-    if (!imported) return within(imported.error(), "{file}", name);
-    return imported;
+    return within_memory("import", name, [&]() -> Result<ImportedDeep> {
+        const auto file = DeepFile::open(bytes, name, options.part);
+        if (!file) return file.error();
+        auto imported = DeepImport(*file, options).run();
+        if (!imported) return within(imported.error(), "{file}", name);
+        return imported;
+    });
 }
 
 Result<ImportedDeep> import_deep(const std::filesystem::path& path, const DeepOptions& options) {
-    return ReadableFile::open(path).and_then([](auto& file) { return file.read(0, file.size()); }).and_then([&](auto& bytes) {
-        return import_deep(bytes, path.filename().string(), options);
+    return within_memory("import", path.native(), [&] {
+        return ReadableFile::open(path).and_then([](auto& file) { return file.read(0, file.size()); }).and_then([&](auto& bytes) {
+            return import_deep(bytes, path.filename().string(), options);
+        });
     });
 }
 

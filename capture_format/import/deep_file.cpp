@@ -2,6 +2,7 @@
 #include "capture_format/import/deep_file.h"
 
 #include <cstring>
+#include <new>
 
 #include <half.h>
 #include <libdeflate.h>
@@ -47,6 +48,7 @@ Result<void> DeepFile::unpack(std::span<const std::byte> packed, std::vector<std
     if (compression_ == EXR_COMPRESSION_RLE) good = unpack_rle(packed, storage.deltas);
     if (compression_ == EXR_COMPRESSION_ZIPS || compression_ == EXR_COMPRESSION_ZIP) {
         if (!storage.inflater) storage.inflater.reset(libdeflate_alloc_decompressor());
+        if (!storage.inflater) throw std::bad_alloc();
         good = unpack_deflate(*storage.inflater, packed, storage.deltas);
     }
     if (!good)

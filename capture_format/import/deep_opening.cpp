@@ -1,7 +1,9 @@
 // Opens a deep file: parts, windows, channels, and where the blocks lie. OpenEXR's C library reads the headers; that every
 // block lies inside the file is checked here, because its offsets are the file's word.
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
+#include <new>
 #include <optional>
 
 #include <openexr.h>
@@ -36,8 +38,25 @@ std::int64_t size_of(exr_const_context_t, void* user) {
 
 void keep_problem(exr_const_context_t context, exr_result_t, const char* message) {
     void* user = nullptr;
-    if (context != nullptr && exr_get_user_data(context, &user) == EXR_ERR_SUCCESS && user != nullptr)
+    if (context == nullptr || exr_get_user_data(context, &user) != EXR_ERR_SUCCESS || user == nullptr) return;
+    try {
         static_cast<Stream*>(user)->problem = message;
+    } catch (const std::bad_alloc&) {}  // the code says enough, and what calls this knows no exceptions
+}
+
+/// Set where OpenEXR got no memory: its library (3.1.5) then leaves attributes and channels out, and may call the file damaged.
+thread_local bool lacked_memory = false;
+
+void* allocate(std::size_t bytes) {
+    void* const memory = std::malloc(bytes);
+    if (!memory) lacked_memory = true;
+    return memory;
+}
+
+/// Whether a call succeeded. Throws where it got no memory, whatever it says.
+bool succeeded(exr_result_t code) {
+    if (lacked_memory) throw std::bad_alloc();
+    return code == EXR_ERR_SUCCESS;
 }
 
 struct Context {
@@ -70,17 +89,23 @@ struct DeepFile::Opening {
         initializer.user_data = &stream;
         initializer.read_fn = read_at;
         initializer.size_fn = size_of;
+        initializer.alloc_fn = allocate;
+        initializer.free_fn = std::free;
+        lacked_memory = false;
         initializer.max_image_width = initializer.max_image_height = static_cast<int>(largest_extent);
         initializer.max_tile_width = initializer.max_tile_height = static_cast<int>(largest_extent);
         initializer.flags = EXR_CONTEXT_FLAG_SILENT_HEADER_PARSE | EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
         const exr_result_t opened = exr_start_read(&context.handle, file_name.c_str(), &initializer);
-        if (opened != EXR_ERR_SUCCESS)
-            return fail(Fault::bad_input, "import.deep.not_openexr", "the file is not a readable OpenEXR file: {reason}",
-                        reason(opened));
+        if (!succeeded(opened)) return unreadable(opened);
         if (const auto done = find_part(wanted); !done) return done;
         if (const auto done = read_header(); !done) return done;
         if (const auto done = read_channels(); !done) return done;
         return tiled() ? place_tiles() : place_lines();
+    }
+
+    Error unreadable(exr_result_t code) const {
+        return fail(Fault::bad_input, "import.deep.not_openexr", "the file is not a readable OpenEXR file: {reason}",
+                    reason(code));
     }
 
     const char* reason(exr_result_t code) const {
@@ -89,24 +114,23 @@ struct DeepFile::Opening {
 
     bool is_deep(int index) const {
         exr_storage_t storage = EXR_STORAGE_SCANLINE;
-        return exr_get_storage(context.handle, index, &storage) == EXR_ERR_SUCCESS &&
+        return succeeded(exr_get_storage(context.handle, index, &storage)) &&
                (storage == EXR_STORAGE_DEEP_SCANLINE || storage == EXR_STORAGE_DEEP_TILED);
     }
 
     bool tiled() const {
         exr_storage_t storage = EXR_STORAGE_SCANLINE;
-        exr_get_storage(context.handle, part, &storage);
-        return storage == EXR_STORAGE_DEEP_TILED;
+        return succeeded(exr_get_storage(context.handle, part, &storage)) && storage == EXR_STORAGE_DEEP_TILED;
     }
 
     std::string name_of(int index) const {
         const char* name = nullptr;
-        return exr_get_name(context.handle, index, &name) == EXR_ERR_SUCCESS && name != nullptr ? name : "";
+        return succeeded(exr_get_name(context.handle, index, &name)) && name != nullptr ? name : "";
     }
 
     Result<void> find_part(std::string_view wanted) {
         int parts = 0;
-        exr_get_count(context.handle, &parts);
+        if (const exr_result_t counted = exr_get_count(context.handle, &parts); !succeeded(counted)) return unreadable(counted);
         std::string known;
         int found = -1;
         for (int i = 0; i < parts; ++i) {
@@ -127,9 +151,10 @@ struct DeepFile::Opening {
     Result<void> read_header() {
         exr_attr_box2i_t data{}, display{};
         exr_compression_t compression = EXR_COMPRESSION_NONE;
-        exr_get_data_window(context.handle, part, &data);
-        exr_get_display_window(context.handle, part, &display);
-        exr_get_compression(context.handle, part, &compression);
+        for (const exr_result_t read :
+             {exr_get_data_window(context.handle, part, &data), exr_get_display_window(context.handle, part, &display),
+              exr_get_compression(context.handle, part, &compression)})
+            if (!succeeded(read)) return unreadable(read);
         const auto data_window = window_of(data, "data"), display_window = window_of(display, "display");
         if (!data_window) return data_window.error();
         if (!display_window) return display_window.error();
@@ -146,7 +171,7 @@ struct DeepFile::Opening {
 
     Result<void> read_channels() {
         const exr_attr_chlist_t* list = nullptr;
-        if (exr_get_channels(context.handle, part, &list) != EXR_ERR_SUCCESS || list == nullptr)
+        if (!succeeded(exr_get_channels(context.handle, part, &list)) || list == nullptr)
             return fail(Fault::bad_input, "import.deep.no_channel_list", "the part has no list of channels");
         file.source_.fill(-1);
         std::string names;
@@ -174,7 +199,7 @@ struct DeepFile::Opening {
             exr_chunk_info_t chunk{};
             const int y = file.data_.y + static_cast<int>(line);
             const exr_result_t found = exr_read_scanline_chunk_info(context.handle, part, y, &chunk);
-            if (found != EXR_ERR_SUCCESS || chunk.height < 1)
+            if (!succeeded(found) || chunk.height < 1)
                 return fail(Fault::bad_input, "import.deep.line_missing", "line {y} cannot be found: {reason}", y, reason(found));
             const auto height = std::min(static_cast<std::uint32_t>(chunk.height), file.data_.height - line);
             const DeepWindow window{file.data_.x, y, file.data_.width, height};
@@ -188,7 +213,7 @@ struct DeepFile::Opening {
     Result<void> place_tiles() {
         std::int32_t width = 0, height = 0;
         const exr_result_t sized = exr_get_tile_sizes(context.handle, part, 0, 0, &width, &height);
-        if (sized != EXR_ERR_SUCCESS || width < 1 || height < 1)
+        if (!succeeded(sized) || width < 1 || height < 1)
             return fail(Fault::bad_input, "import.deep.tile_size", "the tiles have no size: {reason}", reason(sized));
         const DeepWindow& data = file.data_;
         const auto tile_width = static_cast<std::uint32_t>(width), tile_height = static_cast<std::uint32_t>(height);
@@ -197,7 +222,7 @@ struct DeepFile::Opening {
                 const auto column = static_cast<int>(x / tile_width), row = static_cast<int>(y / tile_height);
                 exr_chunk_info_t chunk{};
                 const exr_result_t found = exr_read_tile_chunk_info(context.handle, part, column, row, 0, 0, &chunk);
-                if (found != EXR_ERR_SUCCESS)
+                if (!succeeded(found))
                     return fail(Fault::bad_input, "import.deep.tile_missing", "tile ({column}, {row}) cannot be found: {reason}",
                                 column, row, reason(found));
                 const DeepWindow window{data.x + static_cast<int>(x), data.y + static_cast<int>(y),

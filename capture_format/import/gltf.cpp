@@ -6,6 +6,7 @@
 #include "capture_format/import/gltf_files.h"
 #include "capture_format/import/gltf_frame.h"
 #include "capture_format/import/gltf_load.h"
+#include "capture_format/out_of_memory.h"
 
 namespace strata {
 namespace {
@@ -76,20 +77,24 @@ Result<GltfScene> GltfScene::read(std::vector<std::byte> bytes, const gltf::Fold
 }
 
 Result<GltfScene> GltfScene::open(const std::filesystem::path& path, const GltfOptions& options) {
-    MemoryBudget budget(options.memory_budget);
-    return gltf::read_file(path, budget).and_then([&](auto& bytes) {
-        return read(std::move(bytes), gltf::Folder(path), path.string(), options);
+    return within_memory("import", path.native(), [&] {
+        MemoryBudget budget(options.memory_budget);
+        return gltf::read_file(path, budget).and_then([&](auto& bytes) {
+            return read(std::move(bytes), gltf::Folder(path), path.string(), options);
+        });
     });
 }
 
 Result<GltfScene> GltfScene::open(std::span<const std::byte> bytes, const std::string& name, const GltfOptions& options) {
-    return read({bytes.begin(), bytes.end()}, gltf::Folder(), name, options);
+    return within_memory("import", name, [&] { return read({bytes.begin(), bytes.end()}, gltf::Folder(), name, options); });
 }
 
 Result<Frame> GltfScene::frame(std::uint32_t index) {
-    auto frame = contents_->source.frame(index);
-    if (!frame) return within(frame.error(), "{file}", contents_->name);
-    return frame;
+    return within_memory("import", contents_->name, [&]() -> Result<Frame> {
+        auto frame = contents_->source.frame(index);
+        if (!frame) return within(frame.error(), "{file}", contents_->name);
+        return frame;
+    });
 }
 
 const std::vector<std::string>& GltfScene::warnings() const { return contents_->source.warnings(); }

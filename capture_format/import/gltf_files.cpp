@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <new>
 
 namespace strata::gltf {
 namespace {
@@ -126,6 +128,7 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, Memo
     if (regular) file.open(path, std::ios::binary);
     if (!regular && !failure) return fail(Fault::bad_input, "file.not_a_file", "{file} is not a file", path.string());
     if (failure || !file) {
+        if (!failure && errno == ENOMEM) throw std::bad_alloc();
         const std::string reason = failure ? failure.message() : std::generic_category().message(errno);
         return fail(Fault::bad_input, "file.cannot_open", "cannot open {file}: {reason}", path.string(), reason);
     }

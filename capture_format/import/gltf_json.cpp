@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include <nlohmann/json.hpp>
+
 namespace strata::gltf {
 namespace {
 
@@ -13,13 +15,14 @@ constexpr std::uint64_t bytes_per_value = 128;
 /// An upper bound of what an object or a list becomes: a node, say, or a material.
 constexpr std::uint64_t bytes_per_structure = 1024;
 
-const Json no_members = Json::object();
+const Json no_members{Json::Object()};
 
 /// glTF allows a fraction of zero, "3.0", where it wants an integer.
 std::optional<std::uint64_t> whole(const Json& value) {
-    if (value.is_number_unsigned()) return value.get<std::uint64_t>();
-    if (!value.is_number_float()) return std::nullopt;
-    const double number = value.get<double>();
+    if (const auto* exact = std::get_if<std::uint64_t>(&value.value)) return *exact;
+    const auto* found = std::get_if<double>(&value.value);
+    if (!found) return std::nullopt;
+    const double number = *found;
     if (!(number >= 0 && number < 9e15) || number != std::floor(number)) return std::nullopt;
     return static_cast<std::uint64_t>(number);
 }
@@ -52,8 +55,54 @@ Result<void> check_extent(std::string_view text, MemoryBudget& budget) {
     return budget.take(structures, bytes_per_structure, "the objects and lists of the JSON");
 }
 
+/// Makes values of JSON.
+class Builder : public nlohmann::json_sax<nlohmann::json> {
+public:
+    Json& root() { return root_; }
+
+    bool null() override { return put({}); }
+    bool boolean(bool value) override { return put({value}); }
+    bool number_integer(number_integer_t value) override { return put({static_cast<double>(value)}); }
+    bool number_unsigned(number_unsigned_t value) override { return put({std::uint64_t{value}}); }
+    bool number_float(number_float_t value, const string_t&) override { return put({value}); }
+    bool string(string_t& value) override { return put({std::move(value)}); }
+    bool binary(binary_t&) override { return false; }
+    bool key(string_t& name) override {
+        key_ = std::move(name);
+        return true;
+    }
+    bool start_object(std::size_t) override { return begin({Json::Object()}); }
+    bool start_array(std::size_t) override { return begin({Json::List()}); }
+    bool end_object() override { return end(); }
+    bool end_array() override { return end(); }
+    bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
+
+private:
+    Json& add(Json value) {
+        if (open_.empty()) return root_ = std::move(value);
+        if (auto* list = std::get_if<Json::List>(&open_.back()->value)) return list->emplace_back(std::move(value));
+        return std::get<Json::Object>(open_.back()->value)[key_] = std::move(value);
+    }
+    bool put(Json value) {
+        add(std::move(value));
+        return true;
+    }
+    bool begin(Json value) {
+        open_.push_back(&add(std::move(value)));  // stays where it is: its list grows when it is complete
+        return true;
+    }
+    bool end() {
+        open_.pop_back();
+        return true;
+    }
+
+    Json root_;
+    std::vector<Json*> open_;
+    std::string key_;
+};
+
 /// Reads JSON for the place and the kind of its first error alone.
-class FirstError : public nlohmann::json_sax<Json> {
+class FirstError : public nlohmann::json_sax<nlohmann::json> {
 public:
     explicit FirstError(std::string_view text) : text_(text) {}
 
@@ -135,33 +184,41 @@ private:
 
 Result<Json> parse_json(std::string_view text, MemoryBudget& budget) {
     if (const auto bounded = check_extent(text, budget); !bounded) return bounded.error();
-    Json root = Json::parse(text.begin(), text.end(), nullptr, false);
-    if (root.is_discarded()) {
+    Builder builder;
+    if (!nlohmann::json::sax_parse(text.begin(), text.end(), &builder)) {
         FirstError error(text);
-        Json::sax_parse(text.begin(), text.end(), &error);
+        nlohmann::json::sax_parse(text.begin(), text.end(), &error);
         return error.error();
     }
-    if (!root.is_object()) return fail(Fault::bad_input, "import.gltf.not_an_object", "{place} is not an object", "the JSON");
-    return root;
+    if (!std::holds_alternative<Json::Object>(builder.root().value))
+        return fail(Fault::bad_input, "import.gltf.not_an_object", "{place} is not an object", "the JSON");
+    return std::move(builder.root());
+}
+
+std::optional<double> Json::number() const {
+    if (const auto* whole = std::get_if<std::uint64_t>(&value)) return static_cast<double>(*whole);
+    const auto* found = std::get_if<double>(&value);
+    return found ? std::optional(*found) : std::nullopt;
 }
 
 Fields::Fields(const Json& object, std::string where, std::optional<Error>& problem)
-    : object_(&object), where_(std::move(where)), problem_(problem) {
-    if (object.is_object()) return;
-    object_ = &no_members;
+    : object_(std::get_if<Json::Object>(&object.value)), where_(std::move(where)), problem_(problem) {
+    if (object_) return;
+    object_ = std::get_if<Json::Object>(&no_members.value);
     if (!problem_) problem_ = fail(Fault::bad_input, "import.gltf.not_an_object", "{place} is not an object", where_);
 }
 
 const Json* Fields::member(const char* name) const {
-    const auto found = object_->find(name);
-    return found == object_->end() ? nullptr : &*found;
+    const auto found = object_->find(std::string_view(name));
+    return found == object_->end() ? nullptr : &found->second;
 }
 
-const Json* Fields::member_list(const char* name) {
+const Json::List* Fields::member_list(const char* name) {
     const Json* value = member(name);
-    if (value == nullptr || value->is_array()) return value;
-    wrong(name, "a list");
-    return nullptr;
+    if (value == nullptr) return nullptr;
+    const auto* list = std::get_if<Json::List>(&value->value);
+    if (!list) wrong(name, "a list");
+    return list;
 }
 
 void Fields::wrong(const char* name, std::string_view wanted) {
@@ -188,7 +245,8 @@ std::uint64_t Fields::size(const char* name, std::uint64_t fallback) {
 double Fields::number(const char* name, double fallback) {
     const Json* value = member(name);
     if (value == nullptr) return fallback;
-    if (value->is_number() && std::isfinite(value->get<double>())) return value->get<double>();
+    const auto number = value->number();
+    if (number && std::isfinite(*number)) return *number;
     wrong(name, "a number");
     return fallback;
 }
@@ -196,7 +254,7 @@ double Fields::number(const char* name, double fallback) {
 bool Fields::flag(const char* name, bool fallback) {
     const Json* value = member(name);
     if (value == nullptr) return fallback;
-    if (value->is_boolean()) return value->get<bool>();
+    if (const auto* flag = std::get_if<bool>(&value->value)) return *flag;
     wrong(name, "true or false");
     return fallback;
 }
@@ -204,14 +262,14 @@ bool Fields::flag(const char* name, bool fallback) {
 std::string Fields::text(const char* name, const char* fallback) {
     const Json* value = member(name);
     if (value == nullptr) return fallback;
-    if (value->is_string()) return value->get<std::string>();
+    if (const auto* text = std::get_if<std::string>(&value->value)) return *text;
     wrong(name, "a text");
     return fallback;
 }
 
 std::vector<int> Fields::indices(const char* name) {
     std::vector<int> result;
-    const Json* list = member_list(name);
+    const Json::List* list = member_list(name);
     if (list == nullptr) return result;
     for (const Json& value : *list) {
         const auto index = index_of(value);
@@ -223,14 +281,15 @@ std::vector<int> Fields::indices(const char* name) {
 
 std::vector<double> Fields::numbers(const char* name, std::size_t count) {
     std::vector<double> result;
-    const Json* list = member_list(name);
+    const Json::List* list = member_list(name);
     if (list == nullptr) return result;
     for (const Json& value : *list) {
-        if (!value.is_number() || !std::isfinite(value.get<double>())) {
+        const auto number = value.number();
+        if (!number || !std::isfinite(*number)) {
             wrong(name, "a list of numbers");
             return {};
         }
-        result.push_back(value.get<double>());
+        result.push_back(*number);
     }
     if (count == 0 || result.size() == count) return result;
     wrong(name, fmt::format("a list of {} numbers", count));
@@ -240,7 +299,7 @@ std::vector<double> Fields::numbers(const char* name, std::size_t count) {
 std::vector<double> Fields::components(const char* name) {
     const Json* value = member(name);
     if (value == nullptr) return {};
-    return value->is_array() ? numbers(name, 0) : std::vector{number(name, 0)};
+    return std::holds_alternative<Json::List>(value->value) ? numbers(name, 0) : std::vector{number(name, 0)};
 }
 
 Fields Fields::object(const char* name) {
@@ -250,7 +309,7 @@ Fields Fields::object(const char* name) {
 
 std::vector<std::pair<std::string, int>> Fields::references() {
     std::vector<std::pair<std::string, int>> result;
-    for (const auto& [key, value] : object_->items()) {
+    for (const auto& [key, value] : *object_) {
         const auto index = index_of(value);
         if (!index) wrong(key.c_str(), "an index");
         result.emplace_back(key, index.value_or(-1));
@@ -260,11 +319,10 @@ std::vector<std::pair<std::string, int>> Fields::references() {
 
 std::vector<std::string> Fields::texts(const char* name) {
     std::vector<std::string> result;
-    const Json* list = member_list(name);
+    const Json::List* list = member_list(name);
     if (list == nullptr) return result;
-    for (const Json& value : *list) {
-        if (value.is_string()) result.push_back(value.get<std::string>());
-    }
+    for (const Json& value : *list)
+        if (const auto* text = std::get_if<std::string>(&value.value)) result.push_back(*text);
     return result;
 }
 

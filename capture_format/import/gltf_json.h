@@ -2,20 +2,30 @@
 // refused with its place. The first thing that is wrong stays.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "capture_format/memory_budget.h"
 #include "capture_format/result.h"
 
 namespace strata::gltf {
 
-using Json = nlohmann::json;
+/// A JSON value. Nlohmann's own (3.11.2) allocates when it is destroyed, and so ends the program where there is no memory.
+struct Json {
+    using List = std::vector<Json>;
+    using Object = std::map<std::string, Json, std::less<>>;
+    /// Whole numbers from 0 apart from all others.
+    std::variant<std::nullptr_t, bool, std::uint64_t, double, std::string, List, Object> value = nullptr;
+
+    std::optional<double> number() const;
+};
 
 /// Fails for what is no JSON object, nests deeper than 64, or has more objects than the budget holds.
 Result<Json> parse_json(std::string_view text, MemoryBudget&);
@@ -44,7 +54,7 @@ public:
     /// Calls visit(Fields) for every element of a list of objects.
     template <typename Visit>
     void each(const char* name, const Visit& visit) {
-        const Json* list = member_list(name);
+        const Json::List* list = member_list(name);
         for (std::size_t i = 0; list != nullptr && i < list->size() && !problem_; ++i) {
             visit(Fields((*list)[i], where_ + "." + name + "[" + std::to_string(i) + "]", problem_));
         }
@@ -56,10 +66,10 @@ public:
 
 private:
     const Json* member(const char* name) const;
-    const Json* member_list(const char* name);
+    const Json::List* member_list(const char* name);
     void wrong(const char* name, std::string_view wanted);
 
-    const Json* object_;
+    const Json::Object* object_;
     std::string where_;
     std::optional<Error>& problem_;
 };

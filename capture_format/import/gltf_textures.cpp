@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <span>
 #include <string_view>
 
@@ -28,6 +29,13 @@ bool is_png_or_jpeg(std::span<const std::byte> bytes) {
     return text.starts_with("\x89PNG\r\n\x1a\n") || text.starts_with("\xff\xd8\xff");
 }
 
+/// What stb says when it returns nothing. Its lack of memory is that of the machine.
+const char* stb_problem() {
+    const char* problem = stbi_failure_reason();
+    if (problem && problem == std::string_view("outofmem")) throw std::bad_alloc();
+    return problem && *problem ? problem : "it ends early";
+}
+
 }  // namespace
 
 Result<Texture> TextureImport::decode(int index, std::uint64_t bytes_per_texel) {
@@ -37,7 +45,9 @@ Result<Texture> TextureImport::decode(int index, std::uint64_t bytes_per_texel) 
     const auto* encoded = reinterpret_cast<const stbi_uc*>(image.content.bytes.data());
     const auto size = static_cast<int>(std::min<std::size_t>(image.content.bytes.size(), 0x7fffffff));
     int width = 0, height = 0, channels = 0;
-    if (!is_png_or_jpeg(image.content.bytes) || stbi_info_from_memory(encoded, size, &width, &height, &channels) == 0) {
+    const bool is_known = is_png_or_jpeg(image.content.bytes);
+    if (!is_known || stbi_info_from_memory(encoded, size, &width, &height, &channels) == 0) {
+        if (is_known) static_cast<void>(stb_problem());
         return fail(Fault::bad_input, "import.gltf.image_format", "image {image} '{name:.80}' is neither PNG nor JPEG", index,
                     image.name + image.uri);
     }
@@ -49,16 +59,17 @@ Result<Texture> TextureImport::decode(int index, std::uint64_t bytes_per_texel) 
     }
     const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     if (const auto room = budget_.take(texels, bytes_per_texel, fmt::format("image {}", index)); !room) return room.error();
-    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-        stbi_load_from_memory(encoded, size, &width, &height, &channels, STBI_rgb_alpha), stbi_image_free);
-    if (!pixels)
-        return fail(Fault::bad_input, "import.gltf.image_damaged", "image {image} is damaged: {reason}", index,
-                    stbi_failure_reason());
+    const auto load = [&] { return stbi_load_from_memory(encoded, size, &width, &height, &channels, STBI_rgb_alpha); };
+    std::unique_ptr<stbi_uc, void (*)(void*)> pixels(load(), stbi_image_free);
     Texture texture;
+    texture.texels.resize(4 * texels);
+    // Of some allocations stb does not say that they failed: there was room for the texels, so the image is tried again.
+    if (!pixels) pixels.reset(load());
+    if (!pixels)
+        return fail(Fault::bad_input, "import.gltf.image_damaged", "image {image} is damaged: {reason}", index, stb_problem());
     texture.name = image.name.empty() ? image.uri : image.name;
     texture.width = static_cast<std::uint32_t>(width);
     texture.height = static_cast<std::uint32_t>(height);
-    texture.texels.resize(std::size_t{4} * texture.width * texture.height);
     std::memcpy(texture.texels.data(), pixels.get(), texture.texels.size());
     return texture;
 }

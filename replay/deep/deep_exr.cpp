@@ -13,6 +13,7 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <new>
 #include <sstream>
 
 #include <ImfChannelList.h>
@@ -69,6 +70,7 @@ private:
         if (!bytes.empty()) deltas_[0] = halves_[0];
         for (std::size_t i = 1; i < bytes.size(); ++i) deltas_[i] = static_cast<std::uint8_t>(halves_[i] - halves_[i - 1] + 128);
         std::string packed(bytes.size(), '\0');
+        if (!compressor_) throw std::bad_alloc();
         packed.resize(libdeflate_zlib_compress(compressor_.get(), deltas_.data(), deltas_.size(), packed.data(), packed.size()));
         // 0 where it does not fit; as many bytes as there are would be read as not packed.
         if (packed.empty() || packed.size() == bytes.size())

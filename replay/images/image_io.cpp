@@ -6,7 +6,9 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <new>
 #include <optional>
+#include <string_view>
 #include <thread>
 
 #include <ImfChannelList.h>
@@ -117,9 +119,10 @@ constexpr std::uint64_t exr_bytes_per_byte = 2;
 /// While a PNG is decoded: its texels as they are stored, converted to four channels, and the image's own.
 constexpr std::uint64_t png_bytes_per_byte = 3;
 
-/// stb_image leaves the reason empty for some files that end too early.
+/// stb_image leaves the reason empty for some files that end too early. Its lack of memory is that of the machine.
 std::string png_problem() {
     const char* reason = stbi_failure_reason();
+    if (reason && reason == std::string_view("outofmem")) throw std::bad_alloc();
     return reason && *reason ? reason : "it is damaged or cut short";
 }
 

@@ -6,10 +6,10 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "capture_format/result.h"
+#include "capture_format/safe_variant.h"
 #include "passes/settings.h"
 #include "passes/stage.h"
 
@@ -30,7 +30,7 @@ struct SettingChange {
     const Technique* technique = nullptr;  ///< null: every chosen technique that has the key
     std::string key;
     /// A number. A text where no one technique reads it, or where the technique refuses it.
-    std::variant<double, std::string> value;
+    SafeVariant<double, std::string> value;
     friend bool operator==(const SettingChange&, const SettingChange&) = default;
     /// Whether it is a setting of this technique, chosen or not.
     bool fits(const Technique&) const;
@@ -49,8 +49,9 @@ struct ChoiceChanges {
     friend bool operator==(const ChoiceChanges&, const ChoiceChanges&) = default;
 };
 
-/// The capture's own choices where they name known techniques, else each stage's default; then the changes. Fails for a setting
-/// that no chosen technique has, and for a value that one of them refuses.
+/// Each stage's default; then the capture's own choices, but for stages that the changes give another technique; then the
+/// changes. Fails (bad input) for a recorded choice that is not understood, and (usage) for a setting that no chosen technique
+/// has and for a value that one of them refuses.
 Result<Choices> choose(const Frame&, const ChoiceChanges& = {});
 
 }  // namespace strata

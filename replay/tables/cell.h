@@ -7,6 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "capture_format/safe_variant.h"
 #include "replay/measure/timing.h"
 
 namespace strata {
@@ -15,7 +16,7 @@ namespace strata {
 struct Unknown {};
 
 /// Nothing (monostate): not measured, or it does not apply.
-using CellValue = std::variant<std::monostate, Unknown, double, std::uint64_t, Spread, bool, std::string>;
+using CellValue = SafeVariant<std::monostate, Unknown, double, std::uint64_t, Spread, bool, std::string>;
 
 template <typename T>
 CellValue cell_or_nothing(const std::optional<T>& value) {

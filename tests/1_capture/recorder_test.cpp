@@ -220,17 +220,17 @@ TEST(Recorder, APathThatCannotBeWrittenIsAnErrorThatSaysWhy) {
 }
 
 TEST(Recorder, CallsOutOfOrderAreErrors) {
-    const TemporaryFile file;
+    const TemporaryFile file, another("another"), last("last");
     const View view = triangle_frame().view;
     EXPECT_THAT(Recorder::create(file.path())->end_frame(), FailsWith("record.not_begun"));
     auto twice = Recorder::create(file.path());
     twice->begin_frame(view, 0, 0, 0);
     twice->begin_frame(view, 0, 0, 0);
     EXPECT_THAT(twice->end_frame(), FailsWith("record.begun_twice"));
-    auto open = Recorder::create(file.path());
+    auto open = Recorder::create(another.path());
     open->begin_frame(view, 0, 0, 0);
     EXPECT_THAT(open->finish(), FailsWith("record.not_ended"));
-    auto finished = Recorder::create(file.path());
+    auto finished = Recorder::create(last.path());
     ASSERT_TRUE(finished->finish());
     EXPECT_THAT(finished->record(triangle_frame()), FailsWith("record.finished"));
 }

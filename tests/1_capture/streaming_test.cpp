@@ -125,13 +125,13 @@ TEST(Streaming, WhatCanNeverFitTheBudgetIsAnErrorWithBothNumbers) {
     recorder.draws(std::vector<Draw>(400));
     const auto frame = recorder.end_frame();
     ASSERT_FALSE(frame);
-    EXPECT_THAT(frame, FailsWith("record.budget", Field("resource", "frame 0"), Field("bytes", testing::MatchesRegex("[0-9]{6}")),
-                                 Field("budget", 100000)));
+    EXPECT_THAT(frame, FailsWith("record.budget", Field("resource", "frame 0 with 400 draws"),
+                                 Field("bytes", testing::MatchesRegex("[0-9]{6}")), Field("budget", 100000)));
     begin(recorder);
     EXPECT_TRUE(recorder.end_frame() && recorder.flush()) << "a frame that was too large is left out, later ones follow";
     recorder.add_texture(picture(256, 256, 0));
     EXPECT_THAT(recorder.finish(),
-                FailsWith("record.budget", Field("resource", "'screen'"), Field("bytes", testing::StartsWith("262"))));
+                FailsWith("record.budget", Field("resource", "texture 0 'screen'"), Field("bytes", testing::StartsWith("262"))));
     EXPECT_EQ(recorder.frames_written(), 1u);
 }
 
@@ -165,12 +165,12 @@ TEST(Streaming, FlushMakesEveryFrameReadable) {
 }
 
 TEST(Streaming, CallsOutOfOrderAreNamedByTheNextThatReturns) {
-    const TemporaryFile file;
+    const TemporaryFile file, another("another");
     Recorder outside = triangles(file.path());
     outside.draw({});
     begin(outside);
     EXPECT_THAT(outside.end_frame(), FailsWith("record.outside_frame", Field("call", "draw")));
-    Recorder unknown = triangles(file.path());
+    Recorder unknown = triangles(another.path());
     unknown.update_texture(3, {});
     EXPECT_THAT(unknown.flush(),
                 FailsWith("record.index_out_of_range", Field("call", "update_texture"), Field("index", 3), Field("count", 0)));

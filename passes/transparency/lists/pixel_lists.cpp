@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <limits>
 
 #include "passes/frame_images.h"
@@ -30,7 +29,8 @@ std::vector<Band> bands_within(const FrameImages& images, float pool_millions, s
         pool = std::max(pool, rows.bound);
         bands.push_back({rows.first_row, rows.rows, images.extent.width, images.samples, 0});
     }
-    assert(pool <= std::numeric_limits<std::uint32_t>::max());
+    // A row of more fragments than that fits on no device, and the allocation says so.
+    pool = std::min<std::uint64_t>(pool, std::numeric_limits<std::uint32_t>::max());
     for (Band& band : bands) band.pool = static_cast<std::uint32_t>(pool);
     return bands;
 }
