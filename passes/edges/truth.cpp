@@ -1,10 +1,19 @@
 // Which pixels need every sample shaded.
 #include "passes/edges/truth.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <string_view>
+#include <vector>
 
+#include "capture_format/frame/frame.h"
+#include "passes/reference/fragments.h"
+#include "passes/reference/raster.h"
+#include "passes/reference/shade.h"
 #include "passes/stage_input.h"
 
 namespace strata {
@@ -30,12 +39,45 @@ bool partly_covered(const ReferenceImage& depth, std::uint32_t x, std::uint32_t 
     return false;
 }
 
-bool is_edge(const StageInput& input, std::uint32_t x, std::uint32_t y) {
-    for (const std::string_view name : surface_images) {
+bool words_differ(const StageInput& input, std::uint32_t x, std::uint32_t y) {
+    return std::ranges::any_of(surface_images, [&](std::string_view name) {
         const auto image = input.before.find(name);
-        if (image != input.before.end() && differs(image->second, x, y)) return true;
+        return image != input.before.end() && differs(image->second, x, y);
+    });
+}
+
+/// Whether samples of equal words are read at different view depths: the layout has them from the depth buffer.
+bool depths_differ(const StageInput& input, std::uint32_t x, std::uint32_t y) {
+    const ReferenceImage& depth = input.before.at("depth_layers");
+    if (depth.at(x, y).x <= 0) return false;
+    const auto normal = input.before.find("surface_normal");
+    if (normal == input.before.end()) return differs(depth, x, y);
+    for (std::uint32_t sample = 1; sample < depth.layers; ++sample)
+        if (normal->second.at(x, y, sample).w != normal->second.at(x, y, 0).w) return true;
+    return false;
+}
+
+/// Whether the depths of all samples of the point's pixel are those of the triangle's plane.
+bool is_plane_of_all(const StageInput& input, RasterPoint point, const RasterTriangle& triangle) {
+    const ReferenceImage& depth = input.before.at("depth_layers");
+    for (std::uint32_t sample = 0; sample < depth.layers; ++sample) {
+        const glm::dvec2 at = glm::dvec2(point.x, point.y) + sample_position(depth.layers, sample);
+        point.depth = double(input.frame.view.near) * triangle.rays.inverse_z(pixel_ray(input.frame, at.x, at.y));
+        if (std::abs(depth.at(point.x, point.y, sample).x - point.depth) > depth_tolerance(point)) return false;
     }
-    return partly_covered(input.before.at("depth_layers"), x, y);
+    return true;
+}
+
+/// Makes edges of those marked pixels whose samples lie on no common plane of a triangle.
+void keep_steps_of_depth(const StageInput& input, ReferenceImage& edges) {
+    if (std::ranges::none_of(edges.texels, [](const glm::dvec4& texel) { return texel.x != 0; })) return;
+    const Raster raster(input.frame, opaque_draws(input.frame));
+    oneapi::tbb::parallel_for(std::uint32_t{0}, edges.height, [&](std::uint32_t y) {
+        raster.row(y, {.near_misses = true, .near_seams = true}, [&](const RasterPoint& point, const RasterTriangle& triangle) {
+            double& is_edge = edges.at(point.x, y).x;
+            if (is_edge != 0 && is_plane_of_all(input, point, triangle)) is_edge = 0;
+        });
+    });
 }
 
 }  // namespace
@@ -43,10 +85,16 @@ bool is_edge(const StageInput& input, std::uint32_t x, std::uint32_t y) {
 ImageSet edges_truth(const StageInput& input) {
     const auto depth = input.before.find("depth_layers");
     if (depth == input.before.end() || depth->second.layers < 2) return {};
-    ReferenceImage edges(depth->second.width, depth->second.height, 1, glm::dvec4(0, 0, 0, 1));
+    const ReferenceImage none(depth->second.width, depth->second.height, 1, glm::dvec4(0, 0, 0, 1));
+    ReferenceImage edges = none, steps = none;
     for (std::uint32_t y = 0; y < edges.height; ++y) {
-        for (std::uint32_t x = 0; x < edges.width; ++x) edges.at(x, y).x = is_edge(input, x, y) ? 1 : 0;
+        for (std::uint32_t x = 0; x < edges.width; ++x) {
+            edges.at(x, y).x = words_differ(input, x, y) || partly_covered(depth->second, x, y) ? 1 : 0;
+            if (edges.at(x, y).x == 0 && depths_differ(input, x, y)) steps.at(x, y).x = 1;
+        }
     }
+    keep_steps_of_depth(input, steps);
+    for (std::size_t i = 0; i < edges.texels.size(); ++i) edges.texels[i].x = std::max(edges.texels[i].x, steps.texels[i].x);
     return {{"edges", edges}};
 }
 

@@ -1,6 +1,6 @@
 #include "passes/gbuffer/truth.h"
 
-#include "passes/gbuffer/coverage/judge.h"
+#include "passes/gbuffer/coverage/truth.h"
 #include "passes/gbuffer/nearest.h"
 #include "passes/stage_input.h"
 

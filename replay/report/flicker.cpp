@@ -40,13 +40,16 @@ std::optional<glm::dvec2> depth_range(const Frame& frame, std::span<const std::u
 }
 
 /// The first technique that stands in for the stage's truth and can do the frame; nothing where none does.
-Result<std::optional<Request>> stand_in(Session& session, Stage stage, Request base) {
+Result<std::optional<Request>> stand_in(Session& session, Stage stage, const Request& base) {
     const auto planned = session.plan(base);
     if (!planned) return planned.error();
     for (const Technique* technique : techniques_of(stage)) {
         if (!technique->abilities.stands_in_for_truth || unsupported(*technique, planned->features)) continue;
-        base.choices.use(*technique);
-        return std::optional(std::move(base));
+        Request request = base;
+        request.choices.use(*technique);
+        const auto run = session.run(request);
+        if (!run) return run.error();
+        if (notes_no_limitation(*run, *technique)) return std::optional(std::move(request));
     }
     return std::optional<Request>();
 }

@@ -76,6 +76,7 @@ Result<RowTruth> find_row_truth(Session& session, const ReportRequest& wanted, c
         request.outputs.assign(info(wanted.stage).outputs.begin(), info(wanted.stage).outputs.end());
         const auto run = session.run(request);
         if (!run) return run.error();
+        if (!notes_no_limitation(*run, *technique)) continue;
         for (const auto& [name, image] : run->images) row_truth.truth.emplace(name, in_double(image));
         row_truth.name = fmt::format("{} stands in (relative rmse {:.1e} against the truth at 1/{} extent)", technique->name,
                                      accuracy->model_rmse, row_truth.model_divisor);
@@ -121,6 +122,11 @@ Result<RowTruths> find_row_truths(Session& session, const ReportRequest& wanted,
         found.all.push_back(*std::move(row_truth));
     }
     return found;
+}
+
+bool notes_no_limitation(const Run& run, const Technique& technique) {
+    const std::string begin = fmt::format("{}: ", technique.name);
+    return std::ranges::none_of(run.notes, [&](const std::string& note) { return note.starts_with(begin); });
 }
 
 Result<Accuracy> measure_accuracy(Session& session, const Variant& variant, Stage stage, const RowTruth& row_truth) {

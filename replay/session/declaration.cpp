@@ -189,7 +189,8 @@ public:
             if (!image) continue;
             const ImportId id{first_given_import + d_->given.size()};
             d_->given.emplace_back(id, &texels);
-            graph.compute("shaders/given_image.comp")
+            const bool is_integer = strata::row(graph.shape(image).format).kind == FormatKind::integer;
+            graph.compute(is_integer ? "shaders/given_numbers.comp" : "shaders/given_image.comp")
                 .loads("Given", graph.import("given " + name, texels.texels.size() * sizeof(glm::vec4), id))
                 .stores("image", image)
                 .over({texels.width, texels.height, texels.layers});
@@ -239,7 +240,7 @@ std::optional<Error> cannot_give(const Declaration& d, std::size_t place, const 
             return fail(Fault::usage, "stage.output_not_given", "later stages read '{image}', which is not given", read);
         const Shape& shape = d.graph.shape(d.graph.find_image(read));
         const ReferenceImage& image = given->second;
-        if (row(shape.format).kind != FormatKind::real || shape.samples > 1 || shape.extent.width != image.width ||
+        if (row(shape.format).kind == FormatKind::depth || shape.samples > 1 || shape.extent.width != image.width ||
             shape.extent.height != image.height || shape.layers != image.layers)
             return fail(Fault::usage, "stage.output_of_another_shape", "'{image}' has another shape than the image given", read);
     }

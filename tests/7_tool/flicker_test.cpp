@@ -40,7 +40,7 @@ TEST(CoverageFlicker, IsLessForAlphaTestedAtEverySampleThanForOneTestPerPixel) {
     rows[1].choices = chosen({"gbuffer/octahedral"}, {"masked=per_sample"});
     const std::vector<MeasuredFlicker> flicker = must(measure_flicker(*session, wanted, rows, {}));
     ASSERT_TRUE(flicker[0].coverage && flicker[1].coverage);
-    EXPECT_GT(*flicker[1].coverage, 0) << "four samples are not 64";
+    EXPECT_GT(*flicker[1].coverage, 0) << "four samples are not the area";
     EXPECT_LT(*flicker[1].coverage, .7 * *flicker[0].coverage);
 }
 

@@ -28,7 +28,6 @@ Input four_pixels() {
     surface.at(1, 0, 3).x = 0.75;
     depth.at(2, 0, 1).x = depth.at(2, 0, 2).x = 0;
     for (std::uint32_t sample = 0; sample < 4; ++sample) depth.at(3, 0, sample).x = 0;
-    depth.at(0, 0, 2).x = 0.51;  // samples of one tilted plane
     input.before = {{"depth_layers", depth}, {"gbuffer0", surface}};
     return input;
 }

@@ -24,7 +24,7 @@ std::vector<std::string> notes(const FrameImages& frame, const Settings&) {
     if (!has_samples(frame) || (frame.gbuffer_layout & gbuffer::layout_reads_depth) == 0) return {};
     return {
         "edges/bitwise: this G-buffer takes depth from the depth buffer, which words do not hold; plain pixels are shaded at the "
-        "place of their first sample"};
+        "place of their first sample, and silhouettes between surfaces of equal words are not marked"};
 }
 
 }  // namespace
