@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "capture_format/nearest_name.h"
+
 namespace strata {
 
 std::span<const StageInfo> stages() {
@@ -25,6 +27,12 @@ std::optional<Stage> find_stage(std::string_view name) {
     for (const StageInfo& stage : stages())
         if (stage.name == name || std::ranges::count(stage.aliases, name) > 0) return stage.stage;
     return std::nullopt;
+}
+
+Result<Stage> stage_called(std::string_view wanted) {
+    if (const auto stage = find_stage(wanted)) return *stage;
+    return fail(Fault::usage, "stage.unknown", "there is no stage '{stage}'{suggestion}", wanted,
+                did_you_mean(wanted, stage_names));
 }
 
 }  // namespace strata

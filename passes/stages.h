@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "capture_format/result.h"
 #include "passes/metric.h"
 #include "passes/stage.h"
 
@@ -47,5 +48,7 @@ const StageInfo& info(Stage);
 inline std::string_view name(Stage stage) { return info(stage).name; }
 /// By its name or an alias.
 std::optional<Stage> find_stage(std::string_view name);
+/// The same; fails with the nearest known name.
+Result<Stage> stage_called(std::string_view name);
 
 }  // namespace strata

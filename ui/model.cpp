@@ -25,7 +25,9 @@ Model::Model(std::filesystem::path path, DeviceChoice choice, const Request& fir
 void Model::know(const FrameFacts& facts) {
     if (facts_ && facts_->index == facts.index) return;
     facts_ = facts;
-    recorded_ = *choose(facts.bare);
+    // A recorded choice that is not understood fails the replay, which says so; the panels show the stages' defaults.
+    if (!choose(facts.bare)) facts_->bare.recorded_with.clear();
+    recorded_ = *choose(facts_->bare);
     apply_edits();
 }
 

@@ -13,6 +13,7 @@
 #include "replay/expectations/expectation.h"
 #include "replay/json_text.h"
 #include "replay/plural.h"
+#include "replay/session/choices.h"
 
 namespace strata {
 namespace {
@@ -68,6 +69,13 @@ ordered_json json_of(const Capture& capture, const Frame& frame, std::size_t ind
     of_frame["features"] = ordered_json::object();
     for (const Feature feature : all_features())
         if (features.has(feature)) of_frame["features"][std::string(name(feature))] = features.reason(feature);
+    ordered_json& recorded_with = of_frame["recorded_with"] = ordered_json::array();
+    for (const StageChoice& choice : frame.recorded_with) {
+        recorded_with.push_back({{"stage", choice.stage}, {"technique", choice.technique}, {"settings", ordered_json::object()}});
+        for (const Setting& setting : choice.settings)
+            recorded_with.back()["settings"][setting.key] =
+                std::visit([](const auto& value) { return ordered_json(value); }, setting.value);
+    }
     return json;
 }
 
@@ -86,7 +94,12 @@ void print(const Capture& capture, const Frame& frame, std::size_t index) {
     const Features features = frame_features(frame);
     for (const Feature feature : all_features())
         if (features.has(feature)) to_stdout("  {:<18} {}\n", name(feature), features.reason(feature));
-    for (const StageChoice& stage : frame.recorded_with) to_stdout("recorded with {} for {}\n", stage.technique, stage.stage);
+    for (const StageChoice& choice : frame.recorded_with) {
+        to_stdout("recorded with {} for {}", choice.technique, choice.stage);
+        for (const Setting& setting : choice.settings)
+            std::visit([&](const auto& value) { to_stdout(" {}={}", setting.key, value); }, setting.value);
+        to_stdout("\n");
+    }
 }
 
 Result<void> info(const InfoArguments& options) {
@@ -99,6 +112,7 @@ Result<void> info(const InfoArguments& options) {
                     options.frame, count);
     const auto frame = capture->frame(options.frame);
     if (!frame) return frame.error();
+    if (const auto understood = choose(*frame); !understood) return within(understood.error(), "frame {frame}", options.frame);
     if (options.json) write_stdout(json_text(json_of(*capture, *frame, options.frame)));
     else print(*capture, *frame, options.frame);
     return {};
@@ -120,7 +134,8 @@ Result<void> check_texts(const Capture& capture) {
 Result<Capture> validated(const InfoArguments& options) {
     auto capture = open_capture(options.capture, Partial::refused, options.memory_budget);
     if (!capture) return capture;
-    if (const auto sound = check_capture(options.capture, options.memory_budget); !sound) return sound.error();
+    const auto understands = [](const Frame& frame) { return choose(frame).and_then([](Choices&) { return Result<void>(); }); };
+    if (const auto sound = check_capture(options.capture, options.memory_budget, understands); !sound) return sound.error();
     if (const auto sound = check_texts(*capture); !sound) return within(sound.error(), "{capture}", options.capture.string());
     return capture;
 }

@@ -64,7 +64,6 @@ std::string file_name(std::size_t number, const std::string& label, const std::s
 /// What was compiled, one file per program.
 Result<void> dump(const IsaArguments& options, const std::string& gpu, const Compilation& made,
                   const PipelineRequests& requests) {
-    if (const auto folder = make_folder(options.dump); !folder) return folder;
     std::size_t written = 0, without_assembly = 0;
     for (std::size_t i = 0; i < made.pipelines.size(); ++i)
         for (const Executable& executable : made.pipelines[i].executables) {
@@ -82,6 +81,14 @@ Result<void> dump(const IsaArguments& options, const std::string& gpu, const Com
         to_stderr("strata: the driver has no disassembler for {} and writes the compiler's last intermediate form, ACO IR\n",
                   gpu);
     return {};
+}
+
+/// Whether `--dump` can be followed: before anything is compiled.
+Result<void> check_dump(const IsaArguments& options) {
+    if (options.dump.empty()) return {};
+    if (const auto folder = make_folder(options.dump); !folder) return folder;
+    const auto tried = WholeFile::begin(options.dump / "tried");
+    return tried ? Result<void>() : Result<void>(tried.error());
 }
 
 /// Whether `--tiles` can be followed: before anything is compiled.
@@ -218,6 +225,7 @@ Result<void> run_isa(const IsaArguments& options, const CLI::App& app) {
         return {};
     }
     if (const auto fine = check_tiles(options, *models); !fine) return fine;
+    if (const auto fine = check_dump(options); !fine) return fine;
     return report_frame(options, *models);
 }
 

@@ -10,7 +10,6 @@
 #include <CLI/CLI.hpp>
 
 #include "capture_format/container/whole_file.h"
-#include "capture_format/nearest_name.h"
 #include "capture_format/reader.h"
 #include "passes/registry.h"
 #include "passes/stages.h"
@@ -148,12 +147,8 @@ Result<ReportRequest> request_of(const ReportArguments& options) {
     if (options.repeats) wanted.repeats = *options.repeats;
     else wanted.least_repeats = 3;
     if (options.error_at == "picture") wanted.error_at = ErrorAt::picture;
-    const auto stage = find_stage(options.stage);
-    std::vector<std::string_view> known;
-    for (const StageInfo& info : stages()) known.push_back(info.name);
-    if (!stage)
-        return fail(Fault::usage, "stage.unknown", "there is no stage '{stage}'{suggestion}", options.stage,
-                    did_you_mean(options.stage, known));
+    const auto stage = stage_called(options.stage);
+    if (!stage) return stage.error();
     wanted.stage = *stage;
     for (const std::string& text : options.sweeps) {
         const auto sweep = parse_sweep(text);

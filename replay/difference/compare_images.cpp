@@ -42,6 +42,8 @@ std::vector<Judged> judged(const ImageComparison& made, const ErrorLimits& limit
     }
     all.push_back({"NaN or Inf in only one", double(error.disagreeing), 0});
     if (made.flip && limits.flip_mean) all.push_back({"flip mean", made.flip->mean, *limits.flip_mean});
+    // FLIP sees no alpha.
+    if (flip_alone && error.alpha_mean) all.push_back({"alpha mean", *error.alpha_mean, *limits.flip_mean});
     return all;
 }
 

@@ -68,7 +68,8 @@ ImageDeviation deviation_of(const std::string& name, const HostImage& got, const
     const bool is_out = error.disagreeing > 0 || (error.kind == ImageError::Kind::integers && error.over_limit > 0);
     // Light where black is expected is far off, however little.
     const bool is_black = error.reference == 0 && error.rmse > 0;
-    return {.rmse = is_out || is_black ? HUGE_VAL : error.relative_rmse,
+    const double relative = std::isnan(error.relative_rmse) ? 0 : error.relative_rmse;  // NaN throughout, as expected
+    return {.rmse = is_out || is_black ? HUGE_VAL : relative,
             .texels = error.pixels,
             .differing = error.over_limit,
             .worst = {name, at.x, at.y, at.layer, texel(got, at.x, at.y, at.layer), texel(expected, at.x, at.y, at.layer)}};

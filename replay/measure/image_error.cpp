@@ -1,5 +1,6 @@
 #include "replay/measure/image_error.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstring>
@@ -109,6 +110,7 @@ ImageError image_error(const HostImage& a, const HostImage& b, const ErrorLimits
                      .channels = channels};
     const double limit = limit_of(kind, limits), warn_limit = kind == Kind::values ? limits.warn_limit : ErrorLimits::none;
     ErrorSums sums;
+    double alpha = 0;
     for (std::uint32_t layer = 0; layer < layers; ++layer)
         for (std::uint32_t y = 0; y < extent.height; ++y)
             for (std::uint32_t x = 0; x < extent.width; ++x) {
@@ -119,7 +121,8 @@ ImageError image_error(const HostImage& a, const HostImage& b, const ErrorLimits
                     const double apart = distance(kind, p[c], q[c]);
                     count(p[c], error.in_a);
                     count(q[c], error.in_b);
-                    if (channel < judged && !std::isinf(apart)) sums.add(q[c], p[c]);
+                    if (channel < judged && !std::isinf(apart) && !std::isnan(p[c])) sums.add(q[c], p[c]);
+                    if (channel == 3 && !std::isinf(apart)) alpha += apart;
                     error.disagreeing += std::isinf(apart);
                     worst = std::max(worst, apart);
                     if (apart <= error.worst) continue;
@@ -129,9 +132,11 @@ ImageError image_error(const HostImage& a, const HostImage& b, const ErrorLimits
                 error.over_limit += worst > limit;
                 error.over_warn_limit += worst > warn_limit;
             }
-    error.rmse = sums.rmse();
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    error.rmse = sums.values > 0 ? sums.rmse() : nothing;
     error.reference = sums.reference();
-    error.relative_rmse = sums.relative();
+    error.relative_rmse = sums.values > 0 ? sums.relative() : nothing;
+    if (judged == 4 && kind == Kind::values) error.alpha_mean = alpha / std::max(1.0, double(error.pixels));
     return error;
 }
 

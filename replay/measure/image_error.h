@@ -39,7 +39,8 @@ struct ImageError {
     enum class Kind { values, depth, integers } kind = Kind::values;
     bool identical = false;  ///< every bit: nothing else needs a look
     std::uint64_t pixels = 0, channels = 0;
-    // ErrorSums over the judged_channels() with A as what is wanted. Values that disagree are left out and counted below.
+    // ErrorSums over the judged_channels() with A as what is wanted. Values that disagree are left out and counted below, and so
+    // are NaN on both sides. NaN where nothing is left.
     double rmse = 0;
     double reference = 0;  ///< root mean square of A
     double relative_rmse = 0;
@@ -49,6 +50,7 @@ struct ImageError {
     struct Count {
         std::uint64_t nan = 0, inf = 0;
     } in_a, in_b;
+    std::optional<double> alpha_mean = std::nullopt;  ///< mean difference of alpha, where it is judged with colors
     std::uint64_t disagreeing = 0;  ///< values that are NaN or infinite in one and not the same in the other: never allowed
 };
 

@@ -52,7 +52,7 @@ Result<ChoiceChanges> parse_choices(std::span<const std::string> uses, std::span
         const Technique* earlier = changes.techniques[static_cast<std::size_t>((*technique)->stage)];
         if (earlier)
             return fail(Fault::usage, "technique.two_of_a_stage",
-                        "--use names two techniques of one stage: {technique} and {other}", earlier->name, (*technique)->name);
+                        "{technique} and {other} are of one stage, which takes one technique", earlier->name, (*technique)->name);
         changes.use(**technique);
     }
     for (const std::string& set : sets) {

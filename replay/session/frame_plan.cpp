@@ -1,6 +1,7 @@
 #include "replay/session/frame_plan.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -20,19 +21,43 @@ std::string text(const SettingValue& value) {
     return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
 }
 
-/// The choices the capture was recorded with. Names this program does not know are left to the defaults: a capture must
-/// replay where a technique has gone.
-void apply_recorded(const Frame& frame, Choices& choices) {
+/// The stage's technique and settings as the capture has them. Fails with what is not understood and the known names.
+Result<Choice> recorded_choice(const StageChoice& recorded, Stage stage) {
+    const auto technique = technique_called(recorded.technique, stage);
+    if (!technique) return technique.error();
+    if ((*technique)->stage != stage)
+        return fail(Fault::usage, "technique.of_another_stage", "{technique} belongs to stage {stage}, not to {wanted}",
+                    recorded.technique, name((*technique)->stage), name(stage));
+    Choice choice{*technique, Settings((*technique)->params)};
+    for (const Setting& setting : recorded.settings)
+        if (const auto kept = choice.settings.set(setting.key, text(setting.value)); !kept) return kept.error();
+    return choice;
+}
+
+/// What the capture was recorded with, but where a stage gets another technique.
+Result<void> apply_recorded(const Frame& frame, const ChoiceChanges& changes, Choices& choices) {
+    std::array<const StageChoice*, std::size(stage_names)> seen = {};
     for (const StageChoice& recorded : frame.recorded_with) {
-        const auto technique = find_technique(recorded.technique);
-        if (!technique) continue;
-        Choice choice{*technique, Settings((*technique)->params)};
-        for (const Setting& setting : recorded.settings) {
-            const auto kept = choice.settings.set(setting.key, text(setting.value));
-            static_cast<void>(kept);  // a parameter that is gone or out of range keeps its default
-        }
-        choices[(*technique)->stage] = std::move(choice);
+        const auto refused = [&](Error error) {
+            error.fault = Fault::bad_input;  // the capture says it, and nobody on the command line
+            return within(std::move(error), "the recorded choice for '{stage}'", recorded.stage);
+        };
+        const auto stage = stage_called(recorded.stage);
+        if (!stage) return refused(stage.error());
+        if (changes.technique(*stage)) continue;
+        const StageChoice*& earlier = seen[static_cast<std::size_t>(*stage)];
+        if (earlier)
+            return refused(fail(Fault::usage, "technique.two_of_a_stage",
+                                "{technique} and {other} are of one stage, which takes one technique", earlier->technique,
+                                recorded.technique));
+        earlier = &recorded;
+        auto choice = recorded_choice(recorded, *stage);
+        if (!choice)
+            return advised(refused(choice.error()), "pass --use {stage}/TECHNIQUE to replay it with another technique",
+                           name(*stage));
+        choices[*stage] = *std::move(choice);
     }
+    return {};
 }
 
 /// Of a setting that no chosen technique has; `known`: the parameters of those it might have meant.
@@ -121,7 +146,7 @@ Result<Choices> choose(const Frame& frame, const ChoiceChanges& changes) {
     for (const StageInfo& stage : stages())
         if (const auto known = techniques_of(stage.stage); !known.empty())
             choices[stage.stage] = {known.front(), Settings(known.front()->params)};
-    apply_recorded(frame, choices);
+    if (const auto applied = apply_recorded(frame, changes, choices); !applied) return applied.error();
     for (const Technique* technique : changes.techniques)
         if (technique) choices[technique->stage] = {technique, Settings(technique->params)};
     for (const SettingChange& change : changes.settings)

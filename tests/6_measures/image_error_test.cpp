@@ -143,5 +143,26 @@ TEST(Verdict, FlipDecidesAloneWhereItHasALimitAndValuesHaveNone) {
     EXPECT_EQ(compared(a, b, {.limit = 0, .flip_mean = .1}, "color").verdict, Verdict::over);
 }
 
+TEST(Verdict, OfFlipAloneSeesAlphaWhereItIsCoverage) {
+    const auto half = [](float alpha) { return image<float>(Format::rgba32f, {.5f, .5f, .5f, alpha}); };
+    const ImageComparison apart = compared(half(.2f), half(.95f), {.flip_mean = .1}, "glass.exr");
+    EXPECT_EQ(apart.verdict, Verdict::over);
+    EXPECT_EQ(apart.judged.front().metric, "alpha mean");
+    EXPECT_NEAR(apart.judged.front().value, .75, 1e-6);
+    EXPECT_EQ(compared(half(.2f), half(.25f), {.flip_mean = .1}, "glass.exr").verdict, Verdict::within);
+    EXPECT_EQ(compared(half(.2f), half(.95f), {.flip_mean = .1}, "color").verdict, Verdict::within) << "it covers nothing";
+}
+
+TEST(ImageError, OfNothingButNanIsNoNumber) {
+    const float nan = std::nanf("");
+    const HostImage broken = image<float>(Format::rgba32f, {nan, nan, nan, nan});
+    const HostImage sound = image<float>(Format::rgba32f, {1, 1, 1, 1});
+    for (const HostImage& other : {broken, sound}) {
+        EXPECT_TRUE(std::isnan(image_error(broken, other, {}, "color").rmse));
+        EXPECT_TRUE(std::isnan(image_error(broken, other, {}, "color").relative_rmse));
+    }
+    EXPECT_EQ(image_error(reals({nan, 3}), reals({nan, 1}), {}).rmse, 2) << "of the values that are numbers";
+}
+
 }  // namespace
 }  // namespace strata

@@ -185,8 +185,11 @@ Bytes capture_with_hostile_text() {
             material.name =
                 "material\x9b"
                 "2J\xe2\x82";
-        frame.recorded_with.push_back({.stage = "\x1b[2J", .technique = "\xff\x1b[2J"});
     });
+}
+
+Bytes capture_recorded_with(const std::vector<StageChoice>& choices) {
+    return small_capture("recorded with", [&](Frame& frame) { frame.recorded_with = choices; });
 }
 
 Bytes vast_capture() {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "capture_format/frame/stage_choice.h"
+
 namespace strata {
 
 struct ForgedCapture {
@@ -21,6 +23,8 @@ std::vector<std::byte> sound_capture();
 std::vector<std::byte> capture_with_unknown_section();
 /// The same frames with names and notes that are not UTF-8 and that command a terminal.
 std::vector<std::byte> capture_with_hostile_text();
+/// The same frames, made with these techniques when they were recorded.
+std::vector<std::byte> capture_recorded_with(const std::vector<StageChoice>&);
 /// A few kilobytes within every limit whose one texture takes 1 GiB.
 std::vector<std::byte> vast_capture();
 

@@ -1,5 +1,6 @@
 // strata isa: what RADV makes of a frame's pipelines for GPUs that are not there, against our own arithmetic.
 #include <algorithm>
+#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -125,6 +126,13 @@ TEST(Isa, DumpsTheDisassemblyAndWhereThereIsNoneTheCompilersLastForm) {
     }
     EXPECT_GE(assembly, 8u);
     EXPECT_TRUE(ir == 0 || made.err.find("no disassembler for bonaire") != std::string::npos) << made.err;
+}
+
+TEST(Isa, RefusesAFolderThatTakesNoFilesBeforeItCompiles) {
+    record_panes();
+    std::ofstream(folder() / "file").put(' ');
+    EXPECT_THAT(strata("-v isa panes.strata --dump file/code"), Refuses(2, "file.cannot_make_folder", "folder=file/code"));
+    EXPECT_THAT(strata("-v isa panes.strata --dump /proc"), Refuses(2, "file.cannot_write", "file=/proc/tried"));
 }
 
 TEST(Isa, WithoutACaptureListsTheGpusThatAreKnown) {
