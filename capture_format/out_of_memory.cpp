@@ -13,4 +13,8 @@ Error out_of_memory(std::string_view verb, std::string_view file) noexcept {
     }
 }
 
+Error no_thread(const std::exception& refused) {
+    return fail(Fault::device_lacks, "machine.no_thread", "this machine cannot start another thread: {reason}", refused.what());
+}
+
 }  // namespace strata

@@ -2,6 +2,7 @@
 // where a function ends that applications call.
 #pragma once
 
+#include <exception>
 #include <new>
 #include <string_view>
 #include <type_traits>
@@ -13,7 +14,10 @@ namespace strata {
 /// "this machine has too little memory to read smoke.strata". Where there is none for the sentence either, it is shorter.
 Error out_of_memory(std::string_view verb, std::string_view file) noexcept;
 
-/// What work() returns, or that error where it throws std::bad_alloc.
+/// A thread that the system refuses to start, as an error.
+Error no_thread(const std::exception& refused);
+
+/// Returns what work() returns, or that error where it throws std::bad_alloc.
 template <typename Work>
 std::invoke_result_t<Work> within_memory(std::string_view verb, std::string_view file, const Work& work) {
     try {

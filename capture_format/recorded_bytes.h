@@ -1,4 +1,4 @@
-// What the recorder counts against its budget, and how an error names what takes too much of it.
+// Bytes that count against the recorder's budget, and how an error names what takes too many of them.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ std::uint64_t footprint(const Material&);
 std::uint64_t footprint(const Draw&);
 std::uint64_t footprint(const Emitter&);
 std::uint64_t footprint(const Light&);
-/// Of parts of which only a few are ever submitted.
+/// The size of parts of which only a few are ever submitted.
 template <typename T>
 std::uint64_t footprint(const T& value) {
     return sizeof(value);

@@ -29,8 +29,7 @@ Error caught(std::string_view file) noexcept {
         try {
             throw;
         } catch (const std::system_error& refused) {
-            return fail(Fault::device_lacks, "machine.no_thread", "this machine cannot start another thread: {reason}",
-                        refused.what());
+            return no_thread(refused);
         } catch (const std::bad_alloc&) {
             throw;
         } catch (const std::exception& mistake) {
@@ -73,6 +72,11 @@ struct Recorder::Stream {
     std::uint32_t add(std::uint32_t& count, T, std::string_view call);
     template <typename T>
     void update(std::uint32_t count, std::uint32_t index, T, std::string_view call);
+    /// The label of what takes more than the budget; nothing else is ever named.
+    template <typename... Of>
+    std::string name_if_too_large(std::uint64_t bytes, const Of&... of) const {
+        return bytes > queue.budget() ? label(of...) : std::string();
+    }
     /// Calls fill(frame), which says how many bytes it added, when a frame has begun.
     template <typename Fill>
     void submit(std::string_view call, const Fill& fill);
@@ -197,7 +201,7 @@ void Recorder::Stream::update(std::uint32_t count, std::uint32_t index, T resour
         return;
     }
     const std::uint64_t bytes = footprint(resource);
-    const std::string what = label(index, resource);
+    const std::string what = name_if_too_large(bytes, index, resource);
     // Without this resource all that follows would be wrong.
     if (const Result<void> pushed = queue.push(Put<T>{index, std::move(resource)}, bytes, what); !pushed) {
         (void)misused(pushed.error());
@@ -346,7 +350,7 @@ Result<void> Recorder::end_frame() {
         if (!stream.frame)
             return stream.misused(fail(Fault::usage, "record.not_begun", "end_frame() was called without begin_frame()"));
         const std::uint64_t number = stream.frames++, bytes = std::exchange(stream.frame_bytes, 0);
-        const std::string what = label(*stream.frame, number, stream.queue.budget());
+        const std::string what = stream.name_if_too_large(bytes, *stream.frame, number, stream.queue.budget());
         const Result<void> pushed = stream.queue.push(SubmittedFrame{std::move(stream.frame), number}, bytes, what);
         return pushed ? stream.report() : pushed;
     });
@@ -359,7 +363,7 @@ Result<void> Recorder::record(Frame frame) {
             return stream.misused(
                 fail(Fault::usage, "record.within_frame", "record() was called within begin_frame() and end_frame()"));
         const std::uint64_t number = stream.frames++, bytes = recorded_bytes(frame);
-        const std::string what = label(frame, number, stream.queue.budget());
+        const std::string what = stream.name_if_too_large(bytes, frame, number, stream.queue.budget());
         const Result<void> pushed = stream.queue.push(WholeFrame{std::make_unique<Frame>(std::move(frame)), number}, bytes, what);
         return pushed ? stream.report() : pushed;
     });

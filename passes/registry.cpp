@@ -61,6 +61,9 @@ Result<const Technique*> technique_called(std::string_view word, std::optional<S
     std::vector<const Technique*> found = techniques_called(word);
     const auto is_elsewhere = [&](const Technique* one) { return of && one->stage != *of; };
     if (!std::ranges::all_of(found, is_elsewhere)) std::erase_if(found, is_elsewhere);
+    if (found.size() == 1 && is_elsewhere(found.front()))
+        return fail(Fault::usage, "technique.of_another_stage", "{technique} belongs to stage {stage}, not to {wanted}", word,
+                    name(found.front()->stage), name(*of));
     if (found.size() == 1) return found.front();
     if (found.size() > 1)
         return fail(Fault::usage, "technique.ambiguous", "{stages} stages have a technique {technique}: choose {known}",

@@ -29,8 +29,8 @@ Result<const Technique*> find_technique(std::string_view name);
 std::vector<std::string_view> words_for_techniques(std::optional<Stage> = std::nullopt);
 /// Those that a user may mean: by name, by name without the stage, or by an alias; the stage may be given by its alias, too.
 std::vector<const Technique*> techniques_called(std::string_view word);
-/// The one of those, of that stage where one is given and has it. Fails where there is none or there are several, with the names
-/// to choose from.
+/// The one of those, of that stage where one is given. Fails where there is none or there are several, with the names to choose
+/// from, and where the one is of another stage.
 Result<const Technique*> technique_called(std::string_view word, std::optional<Stage> = std::nullopt);
 /// The techniques of a stage, in the list's order; the first is the stage's default.
 std::vector<const Technique*> techniques_of(Stage);

@@ -26,8 +26,12 @@ void Model::know(const FrameFacts& facts) {
     if (facts_ && facts_->index == facts.index) return;
     facts_ = facts;
     // A recorded choice that is not understood fails the replay, which says so; the panels show the stages' defaults.
-    if (!choose(facts.bare)) facts_->bare.recorded_with.clear();
-    recorded_ = *choose(facts_->bare);
+    auto recorded = choose(facts_->bare);
+    if (!recorded) {
+        facts_->bare.recorded_with.clear();
+        recorded = choose(facts_->bare);
+    }
+    recorded_ = *std::move(recorded);
     apply_edits();
 }
 

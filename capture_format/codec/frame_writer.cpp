@@ -37,7 +37,7 @@ ResourceShapes shapes_of(const StoredResources& resources) {
     return shapes;
 }
 
-/// What a frame takes at the very least, encoded. The builder of flatbuffers does not check its limit of 2 GiB in a release
+/// A lower bound of what a frame takes, encoded. The builder of flatbuffers does not check its limit of 2 GiB in a release
 /// build.
 std::uint64_t least_bytes(const Frame& frame, const StoredResources& resources) {
     constexpr std::uint64_t draw = 2 * sizeof(glm::dmat4), other = 64, clip_plane = 32;

@@ -93,7 +93,7 @@ Result<GrowingFile> GrowingFile::open(const std::filesystem::path& path, int fla
     std::error_code unknown;
     // Named first: without memory for the names no file is made.
     GrowingFile file(path.string(), std::filesystem::absolute(path, unknown), Descriptor(-1));
-    // Whoever cuts the file meanwhile leaves it too short: behind the cut nothing is written that would hide it.
+    // O_APPEND: a file that is cut meanwhile stays too short, as nothing is written behind the cut that would hide it.
     file.descriptor_ = Descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_APPEND | flags, 0666));
     if (file.descriptor_.number() < 0)
         return fail(Fault::usage, "file.cannot_write", "cannot write {file}: {reason}", file.path_, system_words());

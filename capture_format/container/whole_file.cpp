@@ -16,6 +16,7 @@
 
 #include "capture_format/container/file.h"
 #include "capture_format/container/kept_files.h"
+#include "capture_format/out_of_memory.h"
 
 namespace strata {
 namespace {
@@ -215,8 +216,7 @@ Result<void> leave_nothing_half_written_when_stopped() {
         }).detach();
         waits = true;
     } catch (const std::system_error& refused) {
-        return fail(Fault::device_lacks, "machine.no_thread", "this machine cannot start another thread: {reason}",
-                    refused.what());
+        return no_thread(refused);
     }
     return {};
 }

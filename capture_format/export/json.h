@@ -55,7 +55,7 @@ private:
     SafeVariant<std::nullptr_t, bool, std::int64_t, double, std::string, List, Object> value_ = nullptr;
 };
 
-/// What stands in braces, as a view: where one of them throws, GCC 12 also destroys those elements of the list that are not made
+/// An element in braces, as a view: where one of them throws, GCC 12 also destroys those elements of the list that are not made
 /// yet.
 class Json::Part {
 public:

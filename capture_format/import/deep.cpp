@@ -162,8 +162,7 @@ private:
                                                      tbb::make_filter<Slot*, Slot*>(Mode::parallel, make) &
                                                      tbb::make_filter<Slot*, void>(Mode::serial_in_order, join));
         } catch (const std::runtime_error& refused) {  // of pthread_create, by oneTBB 2021.8
-            return fail(Fault::device_lacks, "machine.no_thread", "this machine cannot start another thread: {reason}",
-                        refused.what());
+            return no_thread(refused);
         }
         return result;
     }

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
-#include <new>
 #include <span>
 #include <string_view>
 
 #include <stb_image.h>
 
 #include "capture_format/codec/texture_mips.h"
+#include "capture_format/import/stb_problem.h"
 #include "capture_format/inspection.h"
 
 namespace strata::gltf {
@@ -29,13 +29,6 @@ bool is_png_or_jpeg(std::span<const std::byte> bytes) {
     return text.starts_with("\x89PNG\r\n\x1a\n") || text.starts_with("\xff\xd8\xff");
 }
 
-/// What stb says when it returns nothing. Its lack of memory is that of the machine.
-const char* stb_problem() {
-    const char* problem = stbi_failure_reason();
-    if (problem && problem == std::string_view("outofmem")) throw std::bad_alloc();
-    return problem && *problem ? problem : "it ends early";
-}
-
 }  // namespace
 
 Result<Texture> TextureImport::decode(int index, std::uint64_t bytes_per_texel) {
@@ -47,7 +40,7 @@ Result<Texture> TextureImport::decode(int index, std::uint64_t bytes_per_texel) 
     int width = 0, height = 0, channels = 0;
     const bool is_known = is_png_or_jpeg(image.content.bytes);
     if (!is_known || stbi_info_from_memory(encoded, size, &width, &height, &channels) == 0) {
-        if (is_known) static_cast<void>(stb_problem());
+        if (is_known) static_cast<void>(stb_problem(""));  // throws without memory
         return fail(Fault::bad_input, "import.gltf.image_format", "image {image} '{name:.80}' is neither PNG nor JPEG", index,
                     image.name + image.uri);
     }
@@ -63,10 +56,11 @@ Result<Texture> TextureImport::decode(int index, std::uint64_t bytes_per_texel) 
     std::unique_ptr<stbi_uc, void (*)(void*)> pixels(load(), stbi_image_free);
     Texture texture;
     texture.texels.resize(4 * texels);
-    // Of some allocations stb does not say that they failed: there was room for the texels, so the image is tried again.
+    // stb does not say of every allocation that it failed: there was room for the texels, so the image is tried again.
     if (!pixels) pixels.reset(load());
     if (!pixels)
-        return fail(Fault::bad_input, "import.gltf.image_damaged", "image {image} is damaged: {reason}", index, stb_problem());
+        return fail(Fault::bad_input, "import.gltf.image_damaged", "image {image} is damaged: {reason}", index,
+                    stb_problem("it ends early"));
     texture.name = image.name.empty() ? image.uri : image.name;
     texture.width = static_cast<std::uint32_t>(width);
     texture.height = static_cast<std::uint32_t>(height);

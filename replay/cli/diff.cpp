@@ -408,8 +408,7 @@ void add_limits(CLI::App& app, ErrorLimits& limits) {
         ->check(from_to(0, std::numeric_limits<std::uint32_t>::max()));
     app.add_option("--flip-limit", limits.flip_mean,
                    "largest mean FLIP of images of light, and largest mean difference of alpha where it is coverage; without "
-                   "--limit, only "
-                   "these are checked for them")
+                   "--limit, only these are checked for them")
         ->check(from_to(0, 1));
     add_flip(app, limits.flip);
 }

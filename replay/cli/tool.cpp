@@ -17,6 +17,7 @@
 #include "capture_format/container/file.h"
 #include "capture_format/container/kept_files.h"
 #include "capture_format/container/whole_file.h"
+#include "capture_format/out_of_memory.h"
 #include "replay/cli/given_options.h"
 #include "replay/error_text.h"
 #include "replay/gpu/device.h"
@@ -61,10 +62,6 @@ Result<void> list_gpus(const GpusArguments& options) {
     }
     if (options.json) write_stdout(json_text(json));
     return {};
-}
-
-Error no_thread(const std::exception& refused) {
-    return fail(Fault::device_lacks, "machine.no_thread", "this machine cannot start another thread: {reason}", refused.what());
 }
 
 /// What is thrown as what is returned. A file may need more memory than there is and still be within every limit: 4 GiB for a

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <exception>
 #include <memory>
-#include <new>
 #include <optional>
 #include <string_view>
 #include <thread>
@@ -29,6 +28,7 @@
 #include "capture_format/clean_text.h"
 #include "capture_format/container/whole_file.h"
 #include "capture_format/export/png.h"
+#include "capture_format/import/stb_problem.h"
 #include "capture_format/srgb.h"
 
 namespace strata {
@@ -119,12 +119,7 @@ constexpr std::uint64_t exr_bytes_per_byte = 2;
 /// While a PNG is decoded: its texels as they are stored, converted to four channels, and the image's own.
 constexpr std::uint64_t png_bytes_per_byte = 3;
 
-/// stb_image leaves the reason empty for some files that end too early. Its lack of memory is that of the machine.
-std::string png_problem() {
-    const char* reason = stbi_failure_reason();
-    if (reason && reason == std::string_view("outofmem")) throw std::bad_alloc();
-    return reason && *reason ? reason : "it is damaged or cut short";
-}
+std::string_view png_problem() { return stb_problem("it is damaged or cut short"); }
 
 struct ChannelRow {
     std::string_view in_file;           ///< in the file's order, which is the alphabet's

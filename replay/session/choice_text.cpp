@@ -79,9 +79,6 @@ Result<ParsedVariant> parse_variant(Stage stage, std::string_view text) {
     words >> word;
     const auto found = technique_called(word, stage);
     if (!found) return found.error();
-    if ((*found)->stage != stage)
-        return fail(Fault::usage, "technique.of_another_stage", "{technique} belongs to stage {stage}, not to {wanted}", word,
-                    name((*found)->stage), name(stage));
     ParsedVariant variant{*found, {}, ""};
     Settings settings((*found)->params);
     while (words >> word) {

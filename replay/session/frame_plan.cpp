@@ -25,16 +25,13 @@ std::string text(const SettingValue& value) {
 Result<Choice> recorded_choice(const StageChoice& recorded, Stage stage) {
     const auto technique = technique_called(recorded.technique, stage);
     if (!technique) return technique.error();
-    if ((*technique)->stage != stage)
-        return fail(Fault::usage, "technique.of_another_stage", "{technique} belongs to stage {stage}, not to {wanted}",
-                    recorded.technique, name((*technique)->stage), name(stage));
     Choice choice{*technique, Settings((*technique)->params)};
     for (const Setting& setting : recorded.settings)
         if (const auto kept = choice.settings.set(setting.key, text(setting.value)); !kept) return kept.error();
     return choice;
 }
 
-/// What the capture was recorded with, but where a stage gets another technique.
+/// Follows the capture where the changes give a stage no other technique.
 Result<void> apply_recorded(const Frame& frame, const ChoiceChanges& changes, Choices& choices) {
     std::array<const StageChoice*, std::size(stage_names)> seen = {};
     for (const StageChoice& recorded : frame.recorded_with) {

@@ -52,7 +52,7 @@ bool keep(const Result<T>& result) {
     return static_cast<bool>(result);
 }
 
-/// What a verb needs is there before memory fails. It returns whether what it got is right, which is asked when memory no longer
+/// A verb has what it needs before memory fails. It returns whether what it got is right, which is asked when memory no longer
 /// fails.
 using Check = std::function<bool()>;
 using Run = std::function<Check()>;
@@ -131,7 +131,7 @@ Run write_gltf(const std::string& file) {
     };
 }
 
-/// Of little else than zstd's own allocations, so that each fails also where only a share of all numbers is tried.
+/// Little else than zstd's own allocations, so that each fails also where only a share of all numbers is tried.
 Run compress(const std::string&) {
     auto bytes = std::make_shared<std::vector<std::byte>>(100'000, std::byte{7});
     auto packed = std::make_shared<std::array<std::vector<std::byte>, 2>>();

@@ -1,4 +1,4 @@
-// What the program without_memory records: of everything a little, and enough of it that filters are tried.
+// The frames that the program without_memory records: a little of everything, and enough that filters are tried.
 #pragma once
 
 #include <array>
