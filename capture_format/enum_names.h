@@ -14,12 +14,15 @@ namespace strata {
 
 std::string_view name(TextureFormat);
 std::string_view name(AddressMode);
+std::string_view name(TexelFilter);
+std::string_view name(MipFilter);
 std::string_view name(LightingModel);
 std::string_view name(AlphaMode);
 std::string_view name(FogPath);
 std::string_view name(Mobility);
 std::string_view name(Resolution);
 std::string_view name(LightType);
+std::string_view name(RangeWindow);
 std::string_view name(VolumeKind);
 std::string_view name(VolumeOcclusion);
 

@@ -80,6 +80,8 @@ void find_in_transparent(Features& features, const Material& material, const std
     features.set(Feature::transparent, use);
     if (material.alpha_mode == AlphaMode::additive) {
         features.set(Feature::additive, use);
+    } else if (material.alpha_mode == AlphaMode::premultiplied && material.base_color.w == 0) {
+        features.set(Feature::additive, use + " and no coverage");
     } else if (k.x != k.y || k.y != k.z) {
         features.set(Feature::chromatic, fmt::format("{}, which transmits ({}, {}, {})", use, k.x, k.y, k.z));
     }
@@ -120,6 +122,10 @@ void find_in_emitters(Features& features, const Frame& frame) {
         features.set(Feature::transparent, use);
         features.set(Feature::particles, use);
         if (emitter.alpha_mode == AlphaMode::additive) features.set(Feature::additive, use);
+        const auto only_adds = [](const Particle& particle) { return particle.alpha == 0 && any(particle.emissive); };
+        if (std::any_of(emitter.particles.begin(), emitter.particles.end(), only_adds)) {
+            features.set(Feature::additive, subject + " has particles that emit and do not cover");
+        }
         if (emitter.soft_depth_fade > 0) {
             features.set(Feature::soft_particles, fmt::format("{} fades over {} m", subject, emitter.soft_depth_fade));
         }

@@ -64,6 +64,7 @@ void inspect_indices(Inspection& inspection, const Frame& frame, const Light& li
 void inspect_light(Inspection& inspection, const Frame& frame, const Light& light) {
     inspection.expect_name(light.name);
     inspection.expect_known("light type", light.type, last_light_type);
+    inspection.expect_known("range window", light.window, RangeWindow::quartic);
     inspection.expect_finite("position", light.position);
     inspection.expect_finite("direction", light.direction);
     inspection.expect_finite("axis_u", light.axis_u);

@@ -129,6 +129,9 @@ void inspect_texture(Inspection& inspection, const Texture& texture) {
     const bool shaped = inspection.expect_known("texture format", texture.format, TextureFormat::rgba32f) &&
                         inspection.expect_extent(texture.width, texture.height);
     inspection.expect_known("address mode", texture.address, AddressMode::mirror_clamp);
+    inspection.expect_known("magnification filter", texture.magnify, TexelFilter::nearest);
+    inspection.expect_known("minification filter", texture.minify, TexelFilter::nearest);
+    inspection.expect_known("filter between mips", texture.between_mips, MipFilter::none);
     if (!shaped) return;
     const auto most_mips = static_cast<std::uint32_t>(std::bit_width(std::max(texture.width, texture.height)));
     if (!inspection.expect_within("number of mips", texture.mips, 1, most_mips)) return;

@@ -122,6 +122,9 @@ Texture Decoder::texture(const schema::Texture& table) {
         .height = table.height_px(),
         .mips = table.mips(),
         .address = static_cast<AddressMode>(table.address()),
+        .magnify = static_cast<TexelFilter>(table.magnify()),
+        .minify = static_cast<TexelFilter>(table.minify()),
+        .between_mips = static_cast<MipFilter>(table.between_mips()),
         .texels = stream<std::byte>(*table.texels(), "texels"),
     };
 }
@@ -213,6 +216,7 @@ Light Decoder::light(const schema::Light& table) {
         .axis_u = bit_copy<glm::vec3>(*table.axis_u()),
         .intensity = bit_copy<glm::vec3>(*table.intensity()),
         .range = table.range_m(),
+        .window = static_cast<RangeWindow>(table.window()),
         .source_radius = table.source_radius_m(),
         .half_extent = bit_copy<glm::vec2>(*table.half_extent_m()),
         .inner_angle = table.inner_angle_rad(),

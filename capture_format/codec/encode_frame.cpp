@@ -100,6 +100,9 @@ Offset<schema::Texture> Encoder::texture(const StoredTexture& stored) {
     table.add_height_px(texture.height);
     table.add_mips(texture.mips);
     table.add_address(static_cast<schema::AddressMode>(texture.address));
+    table.add_magnify(static_cast<schema::TexelFilter>(texture.magnify));
+    table.add_minify(static_cast<schema::TexelFilter>(texture.minify));
+    table.add_between_mips(static_cast<schema::MipFilter>(texture.between_mips));
     table.add_texels(&texels);
     return table.Finish();
 }
@@ -229,6 +232,7 @@ Offset<schema::Light> Encoder::light(const Light& light) {
     table.add_clip_planes(clip_planes);
     table.add_blockers(blockers);
     table.add_portals(portals);
+    table.add_window(static_cast<schema::RangeWindow>(light.window));
     return table.Finish();
 }
 

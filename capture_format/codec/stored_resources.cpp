@@ -16,6 +16,9 @@ StoredTexture store(const Texture& texture, BlobCollector& blobs) {
                         .height = texture.height,
                         .mips = texture.mips,
                         .address = texture.address,
+                        .magnify = texture.magnify,
+                        .minify = texture.minify,
+                        .between_mips = texture.between_mips,
                         .texels = {}},
             .texels = blobs.put(texture.texels, texel_bytes(texture.format))};
 }

@@ -75,6 +75,8 @@ void add_lights(Losses& losses, const Frame& frame) {
                "lights project a texture; the texture is left out");
     losses.add(count(frame.lights, [](L l) { return is_punctual(l) && (!l.clip_planes.empty() || !l.blockers.empty()); }),
                "lights are cut by planes or blockers; they are written whole");
+    losses.add(count(frame.lights, [](L l) { return is_punctual(l) && has_range(l.type) && l.window != RangeWindow::quartic; }),
+               "lights end by (1 - x^4)^2 at their range; readers of glTF end them by 1 - x^4");
     losses.add(count(frame.lights, [](L l) { return is_punctual(l) && l.shadow.casts; }),
                "lights cast shadows; glTF leaves that open");
     losses.add(frame.blockers.size(), "blockers are left out");

@@ -40,6 +40,18 @@ constexpr int wrap_mode(AddressMode mode) {
     return mode == AddressMode::clamp ? 33071 : mode == AddressMode::mirror ? 33648 : 10497;
 }
 
+constexpr int nearest_filter = 9728, linear_filter = 9729;
+/// Filters with mips: nearest and linear texels of the nearest mip; 2 more where mips are mixed.
+constexpr int nearest_of_mips = 9984, linear_of_mips = 9985, mixed = 2;
+
+int mag_filter(const Texture& texture) { return texture.magnify == TexelFilter::nearest ? nearest_filter : linear_filter; }
+
+int min_filter(const Texture& texture) {
+    const bool is_nearest = texture.minify == TexelFilter::nearest;
+    if (texture.between_mips == MipFilter::none) return is_nearest ? nearest_filter : linear_filter;
+    return (is_nearest ? nearest_of_mips : linear_of_mips) + (texture.between_mips == MipFilter::linear ? mixed : 0);
+}
+
 /// KHR_texture_transform says offset, rotation and scale; the matrix is (c sx, s sy, tx; -s sx, c sy, ty).
 struct Decomposed {
     Json transform;
@@ -76,9 +88,8 @@ std::size_t Surfaces::texture(std::uint32_t index, Encoding encoding) {
         "images", {{"name", source.name},
                    {"mimeType", "image/png"},
                    {"bufferView", parts_.add_view(encode_png(source.width, source.height, 4, finest_texels(source, wanted)))}});
-    constexpr int linear = 9729, linear_mipmap_linear = 9987;
-    const std::size_t sampler = parts_.add("samplers", {{"magFilter", linear},
-                                                        {"minFilter", linear_mipmap_linear},
+    const std::size_t sampler = parts_.add("samplers", {{"magFilter", mag_filter(source)},
+                                                        {"minFilter", min_filter(source)},
                                                         {"wrapS", wrap_mode(address_u(source.address))},
                                                         {"wrapT", wrap_mode(address_v(source.address))}});
     known->second = parts_.add("textures", {{"source", image}, {"sampler", sampler}});

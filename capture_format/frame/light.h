@@ -15,6 +15,10 @@ namespace strata {
 
 enum class LightType : std::uint32_t { omni, round_spot, square_spot, tube, sphere, disc, rectangle, directional };
 
+/// How a light ends, with x = distance / range: by (1 - x^4)^2, as in engines (Karis, Real Shading in Unreal Engine 4, 2013), or
+/// by 1 - x^4, as KHR_lights_punctual of glTF recommends.
+enum class RangeWindow : std::uint32_t { squared_quartic, quartic };
+
 /// Keeps what lies on the side dot(normal, p) + distance >= 0, world space.
 struct ClipPlane {
     glm::dvec3 normal{0, 1, 0};
@@ -32,7 +36,8 @@ struct Light {
     glm::vec3 direction{0, -1, 0};  ///< where it shines, unit
     glm::vec3 axis_u{1, 0, 0};      ///< unit, perpendicular to direction
     glm::vec3 intensity{1};
-    float range = 10;                              ///< from position: the window is exactly 0 from here on
+    float range = 10;  ///< from position: the window is exactly 0 from here on
+    RangeWindow window = RangeWindow::squared_quartic;
     float source_radius = 0;                       ///< sphere, disc, tube
     glm::vec2 half_extent{0};                      ///< rectangle half sizes; tube half length in x
     float inner_angle = 0.5f, outer_angle = 0.7f;  ///< half angles; a square spot uses outer for u and inner for v

@@ -22,13 +22,21 @@ enum class AddressMode : std::uint32_t {
     mirror_clamp
 };
 AddressMode address_u(AddressMode), address_v(AddressMode);
+/// Between the texels of a mip.
+enum class TexelFilter : std::uint32_t { linear, nearest };
+/// Between two mips; none: the finest is read alone.
+enum class MipFilter : std::uint32_t { linear, nearest, none };
 
-/// Texels of every mip, finest first, rows top to bottom, tightly packed. Mip n is max(1, extent >> n).
+/// Texels of every mip, finest first, rows top to bottom, tightly packed. Mip n is max(1, extent >> n). Filters are those of
+/// surfaces and particles; pictures of lights are filtered linearly.
 struct Texture {
     std::string name;
     TextureFormat format = TextureFormat::rgba8_unorm;
     std::uint32_t width = 0, height = 0, mips = 1;
     AddressMode address = AddressMode::repeat;
+    TexelFilter magnify = TexelFilter::linear;  ///< where a pixel covers one texel of the finest mip or less
+    TexelFilter minify = TexelFilter::linear;   ///< where it covers more
+    MipFilter between_mips = MipFilter::linear;
     std::vector<std::byte> texels;
 };
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -20,6 +21,7 @@ namespace strata {
 namespace gltf {
 class Folder;
 }
+struct Texture;  // capture_format/frame/texture.h
 
 struct GltfOptions {
     std::uint32_t width = 160, height = 90, samples = 1;
@@ -36,6 +38,10 @@ struct GltfOptions {
     /// Bytes that the file, its buffers, vertices and pictures may take in memory together, frames and what becomes of them until
     /// they are recorded among them; hostile files claim more. 0: half of the machine's memory.
     std::uint64_t memory_budget = 0;
+    /// Takes each texture as soon as it is decoded, in the order of Frame::textures, so that one image at a time is in memory.
+    /// Frames then have textures without their finest mips: up to 256 texels each way are left, enough for a thumbnail. An error
+    /// ends the import. Without this, frames have whole textures.
+    std::function<Result<void>(Texture)> take_texture;
 };
 
 class GltfScene {

@@ -183,12 +183,25 @@ Result<void> for_each_element(const Document& document, const Accessor& accessor
     return {};
 }
 
-/// An accessor that claims more than its buffer view holds is told so before anything is allocated for it.
+/// Of the file and all that it refers to, unpacked.
+std::uint64_t bytes_of(const Document& document) {
+    std::uint64_t sum = 0;
+    for (const std::vector<std::byte>& bytes : document.storage) sum += bytes.size();
+    return sum;
+}
+
+/// An accessor that claims more than its buffer view holds is told so before anything is allocated for it. Without a view all its
+/// elements are 0, and a few bytes can claim any number: there are not more than the file has bytes.
 Result<void> check_claim(const Document& document, const Accessor& accessor, std::uint64_t element_bytes, MemoryBudget& budget) {
     if (accessor.view >= 0) {
         const auto base = locate(document, {accessor.view, accessor.offset, accessor.count,
                                             component_bytes(accessor.component_type) * components_of(accessor.type)});
         if (!base) return base.error();
+    }
+    if (const std::uint64_t most = bytes_of(document); accessor.view < 0 && accessor.count > most) {
+        return fail(Fault::bad_input, "import.gltf.accessor_without_view",
+                    "it has {elements} elements and no buffer view; the file and its buffers have {bytes} bytes", accessor.count,
+                    most);
     }
     return budget.take(accessor.count, element_bytes, "its elements");
 }
@@ -232,6 +245,15 @@ Result<std::vector<std::uint32_t>> read_indices(const Document& document, int in
         indices[place] = index_value(bytes, accessor.component_type);
     });
     if (!read) return within(read.error(), "accessor {accessor}", index);
+    const std::uint32_t restart = 0xffffffffu >> (32 - 8 * component_bytes(accessor.component_type));
+    const auto found_restart = std::find(indices.begin(), indices.end(), restart);
+    if (found_restart != indices.end()) {
+        return fail(
+            Fault::bad_input, "import.gltf.restart_index",
+            "element {element} of accessor {accessor} is {index}, which would restart the primitive; glTF does not allow it: "
+            "split the primitive there",
+            found_restart - indices.begin(), index, restart);
+    }
     return indices;
 }
 

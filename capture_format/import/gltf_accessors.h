@@ -15,7 +15,7 @@ namespace strata::gltf {
 /// Fails when the accessor is missing, has another number of components, leaves its buffer view, or exceeds the budget.
 Result<std::vector<float>> read_floats(const Document&, int accessor, std::uint32_t components, MemoryBudget&);
 
-/// Scalars of any unsigned type.
+/// Scalars of any unsigned type, none of them the largest of its type: glTF 2.0, 3.7.2.1, has no primitive restart.
 Result<std::vector<std::uint32_t>> read_indices(const Document&, int accessor, MemoryBudget&);
 
 /// The number of components of an accessor's elements; 0 when there is no such accessor.

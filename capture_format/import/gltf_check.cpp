@@ -90,9 +90,17 @@ private:
             refuse(fail(Fault::bad_input, "import.gltf.wrap_mode",
                         "{place} has {member} {mode}, which is not a wrapping mode of glTF", where, name, mode));
         }
-        if (sampler.mag_filter == nearest_filter || sampler.mag_filter == linear_filter) return;
-        refuse(fail(Fault::bad_input, "import.gltf.filter", "{place} has magFilter {filter}, which is not a filter of glTF",
-                    where, sampler.mag_filter));
+        const auto is_filter = [](std::uint64_t filter) { return filter == nearest_filter || filter == linear_filter; };
+        const std::uint64_t least = sampler.min_filter;
+        const bool has_mips = least >= nearest_mipmap_nearest && least <= linear_mipmap_linear;
+        expect_filter(where, "magFilter", sampler.mag_filter, is_filter(sampler.mag_filter));
+        expect_filter(where, "minFilter", least, is_filter(least) || has_mips);
+    }
+
+    void expect_filter(const std::string& where, std::string_view member, std::uint64_t filter, bool exists) {
+        if (exists) return;
+        refuse(fail(Fault::bad_input, "import.gltf.filter", "{place} has {member} {filter}, which is not a filter of glTF", where,
+                    member, filter));
     }
 
     const Document& document_;

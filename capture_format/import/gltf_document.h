@@ -116,11 +116,18 @@ struct TextureSource {
 };
 
 /// glTF's own numbers.
-enum Filter : std::uint64_t { nearest_filter = 9728, linear_filter = 9729 };
+enum Filter : std::uint64_t {
+    nearest_filter = 9728,
+    linear_filter = 9729,
+    nearest_mipmap_nearest = 9984,
+    linear_mipmap_nearest = 9985,
+    nearest_mipmap_linear = 9986,
+    linear_mipmap_linear = 9987
+};
 enum Wrap : std::uint64_t { repeat = 10497, clamp_to_edge = 33071, mirrored_repeat = 33648 };
 
 struct Sampler {
-    std::uint64_t mag_filter = linear_filter, wrap_s = repeat, wrap_t = repeat;
+    std::uint64_t mag_filter = linear_filter, min_filter = linear_mipmap_linear, wrap_s = repeat, wrap_t = repeat;
 };
 
 struct Document {

@@ -119,7 +119,7 @@ Result<void> FrameSource::read() {
     if (!hierarchy) return hierarchy.error();
     hierarchy_ = *std::move(hierarchy);
     if (const auto read = read_animation(); !read) return read;
-    auto surfaces = import_materials(document_, budget_);
+    auto surfaces = import_materials(document_, budget_, options_.take_texture);
     if (!surfaces) return surfaces.error();
     surfaces_ = *std::move(surfaces);
     for (const std::string& warning : surfaces_.warnings) warn(warning);

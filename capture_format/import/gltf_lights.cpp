@@ -31,6 +31,7 @@ Light convert_light(const LightSource& source, const glm::dmat4& to_world) {
     const glm::dvec3 intensity = source.color * source.intensity;
     light.intensity = glm::vec3(intensity);
     const double brightest = std::max({intensity.x, intensity.y, intensity.z, 1e-6});
+    light.window = RangeWindow::quartic;
     light.range = static_cast<float>(source.range > 0 ? source.range : std::sqrt(brightest / unnoticed_irradiance));
     if (source.type == "directional") light.type = LightType::directional;
     if (source.type == "spot") {
@@ -38,8 +39,8 @@ Light convert_light(const LightSource& source, const glm::dmat4& to_world) {
         const double outer = std::clamp(source.outer_angle, 1e-3, widest_spot);
         light.outer_angle = static_cast<float>(outer);
         light.inner_angle = static_cast<float>(std::clamp(source.inner_angle, 0.0, outer));
-        light.shadow.casts = true;
     }
+    light.shadow.casts = facts_of(light.type).maps != LightMaps::none;
     return light;
 }
 
@@ -87,6 +88,9 @@ std::vector<std::string> add_lights(Frame& frame, const Document& document, cons
             frame.sun.irradiance = light.intensity;
             frame.sun.shadow.casts = true;
         } else {
+            if (!has_range(light.type))
+                warnings.push_back(fmt::format("light {} '{:.60}' is another directional light than the sun; it casts no shadow",
+                                               node.light, light.name));
             frame.lights.push_back(light);
         }
     }

@@ -244,8 +244,8 @@ private:
             document_.textures.push_back({fields.index("source"), fields.index("sampler")});
         });
         root.each("samplers", [&](Fields fields) {
-            document_.samplers.push_back({fields.size("magFilter", linear_filter), fields.size("wrapS", Wrap::repeat),
-                                          fields.size("wrapT", Wrap::repeat)});
+            document_.samplers.push_back({fields.size("magFilter", linear_filter), fields.size("minFilter", linear_mipmap_linear),
+                                          fields.size("wrapS", Wrap::repeat), fields.size("wrapT", Wrap::repeat)});
         });
     }
 

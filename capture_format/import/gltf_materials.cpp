@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "capture_format/import/gltf_surfaces.h"
 #include "capture_format/import/gltf_textures.h"
@@ -27,8 +28,8 @@ glm::dvec3 attenuation(const MaterialSource& source, double thickness) {
 /// Turns the materials of one document; textures are shared among them.
 class MaterialImport {
 public:
-    MaterialImport(const Document& document, MemoryBudget& budget)
-        : document_(document), budget_(budget), textures_(document, budget) {}
+    MaterialImport(const Document& document, MemoryBudget& budget, const TakeTexture& take)
+        : document_(document), budget_(budget), textures_(document, budget, take) {}
 
     Result<ImportedMaterials> run() {
         ImportedMaterials result;
@@ -106,32 +107,49 @@ private:
         glm::dvec3 passes{0};
     };
 
+    /// What a texture is at each point, white where there is none. One image at a time is decoded.
+    std::vector<glm::vec4> values(const TextureReference& reference, Encoding encoding, std::span<const SurfacePoint> points) {
+        std::vector<glm::vec4> result(points.size(), glm::vec4(1));
+        textures_.read(reference.texture, encoding, [&](const Texture& texture) {
+            const TexelLookup lookup{&texture, reference.uv_set == 1 ? 1u : 0u, reference.transform};
+            for (std::size_t i = 0; i < points.size(); ++i) result[i] = glm::vec4(lookup.at(points[i]));
+        });
+        return result;
+    }
+
+    /// Of surfaces that show a material; one point where no texture makes them differ.
+    std::vector<SurfacePoint> points_of(const MaterialSource& source) const {
+        std::vector<SurfacePoint> points;
+        for (const TextureReference* reference : {&source.base_color_texture, &source.metallic_roughness_texture,
+                                                  &source.transmission_texture, &source.thickness_texture}) {
+            if (reference->texture < 0 || !points.empty()) continue;
+            for_surface_points(document_, static_cast<int>(&source - document_.materials.data()), budget_,
+                               [&](const SurfacePoint& point) { points.push_back(point); });
+        }
+        if (points.empty()) points.emplace_back();
+        return points;
+    }
+
     /// The mean over the surfaces that show the material: of what goes through, not of the thickness, for what goes through falls
     /// exponentially with it.
     Glass mean_glass(const Material& material, const MaterialSource& source) {
-        const auto of_use = [&](const TextureUse& use) {
-            return TexelLookup{use.texture == no_index ? nullptr : &textures_.textures()[use.texture], use.uv_set, use.transform};
-        };
-        const auto of_data = [&](const TextureReference& reference) {
-            return TexelLookup{textures_.data(reference.texture), reference.uv_set == 1 ? 1u : 0u, reference.transform};
-        };
-        const TexelLookup color = of_use(material.base_color_texture), metal = of_use(material.metallic_roughness_texture);
-        const TexelLookup transmission = of_data(source.transmission_texture), thickness = of_data(source.thickness_texture);
+        const std::vector<SurfacePoint> points = points_of(source);
+        const auto color = values(source.base_color_texture, Encoding::srgb, points);
+        const auto metal = values(source.metallic_roughness_texture, Encoding::linear, points);
+        const auto transmission = values(source.transmission_texture, Encoding::linear, points);
+        const auto thickness = values(source.thickness_texture, Encoding::linear, points);
         const double metallic = static_cast<double>(material.metallic), enters = 1 - head_on_reflectance(source.ior);
         Glass sum;
         double area = 0;
-        const auto add = [&](const SurfacePoint& point) {
-            const double share =
-                std::clamp(source.transmission * transmission.at(point).x * (1 - metallic * metal.at(point).z), 0.0, 1.0);
-            const glm::dvec3 tint = glm::dvec3(source.base_color) * glm::dvec3(color.at(point));
-            sum.share += share * point.area;
-            sum.passes += tint * attenuation(source, source.thickness * thickness.at(point).y) * (share * enters * point.area);
-            area += point.area;
-        };
-        const bool is_textured = color.texture || metal.texture || transmission.texture || thickness.texture;
-        const auto index = static_cast<int>(&source - document_.materials.data());
-        if (is_textured) for_surface_points(document_, index, budget_, add);
-        else add({});
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double dielectric = 1 - metallic * static_cast<double>(metal[i].z);
+            const double share = std::clamp(source.transmission * static_cast<double>(transmission[i].x) * dielectric, 0.0, 1.0);
+            const glm::dvec3 tint = glm::dvec3(source.base_color) * glm::dvec3(color[i]);
+            const double deep = source.thickness * static_cast<double>(thickness[i].y);
+            sum.share += share * points[i].area;
+            sum.passes += tint * attenuation(source, deep) * (share * enters * points[i].area);
+            area += points[i].area;
+        }
         return {sum.share / area, sum.passes / area};
     }
 
@@ -169,8 +187,8 @@ private:
 
 }  // namespace
 
-Result<ImportedMaterials> import_materials(const Document& document, MemoryBudget& budget) {
-    return MaterialImport(document, budget).run();
+Result<ImportedMaterials> import_materials(const Document& document, MemoryBudget& budget, const TakeTexture& take) {
+    return MaterialImport(document, budget, take).run();
 }
 
 double head_on_reflectance(double ior) { return std::pow((ior - 1) / (ior + 1), 2); }

@@ -1,6 +1,7 @@
 #include "capture_format/import/gltf_textures.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <memory>
 #include <span>
@@ -8,6 +9,7 @@
 
 #include <stb_image.h>
 
+#include "capture_format/codec/texture_bytes.h"
 #include "capture_format/codec/texture_mips.h"
 #include "capture_format/import/stb_problem.h"
 #include "capture_format/inspection.h"
@@ -22,6 +24,8 @@ namespace {
 constexpr std::uint64_t recorded_bytes_per_texel = 24;
 /// While an image is decoded for the import alone: as it is stored, with four channels, the texture's own.
 constexpr std::uint64_t decoded_bytes_per_texel = 12;
+/// Texels each way that frames keep of a texture that was taken.
+constexpr std::uint32_t kept_extent = 256;
 
 /// The two formats of glTF. stb reads others, too, with decoders that a hostile file should not reach.
 bool is_png_or_jpeg(std::span<const std::byte> bytes) {
@@ -29,9 +33,50 @@ bool is_png_or_jpeg(std::span<const std::byte> bytes) {
     return text.starts_with("\x89PNG\r\n\x1a\n") || text.starts_with("\xff\xd8\xff");
 }
 
+/// Of an rgba8 texture with all its mips.
+std::uint64_t bytes_with_mips(std::uint32_t width, std::uint32_t height) {
+    const auto mips = static_cast<std::uint32_t>(std::bit_width(std::max(width, height)));
+    return texture_bytes({.name = {}, .width = width, .height = height, .mips = mips, .texels = {}});
+}
+
+/// The mips of at most kept_extent texels each way.
+Texture without_finest_mips(const Texture& texture) {
+    std::uint32_t mip = 0;
+    std::size_t first = 0;
+    while (std::max(texture.width, texture.height) >> mip > kept_extent) {
+        first += std::size_t{4} * std::max(1u, texture.width >> mip) * std::max(1u, texture.height >> mip);
+        ++mip;
+    }
+    return {.name = texture.name,
+            .format = texture.format,
+            .width = std::max(1u, texture.width >> mip),
+            .height = std::max(1u, texture.height >> mip),
+            .mips = texture.mips - mip,
+            .address = texture.address,
+            .magnify = texture.magnify,
+            .minify = texture.minify,
+            .between_mips = texture.between_mips,
+            .texels = {texture.texels.begin() + static_cast<std::ptrdiff_t>(first), texture.texels.end()}};
+}
+
 }  // namespace
 
-Result<Texture> TextureImport::decode(int index, std::uint64_t bytes_per_texel) {
+struct TextureImport::Room {
+    MemoryBudget& budget;
+    std::uint64_t bytes_per_texel = 0, texels = 0;
+    ~Room() { budget.give_back(bytes_per_texel * texels); }
+    /// The texels stay.
+    void keep() { texels = 0; }
+};
+
+Result<Texture> TextureImport::decode(int index, Room& room) {
+    if (const auto known = broken_.find(index); known != broken_.end()) return known->second;
+    auto decoded = decode_once(index, room);
+    if (!decoded) broken_.emplace(index, decoded.error());
+    return decoded;
+}
+
+Result<Texture> TextureImport::decode_once(int index, Room& room) {
     if (index < 0) return fail(Fault::bad_input, "import.gltf.no_image", "the texture has no PNG or JPEG image");
     const Image& image = document_.images[static_cast<std::size_t>(index)];
     if (image.content.fault) return within(*image.content.fault, "image {image}", index);
@@ -51,16 +96,27 @@ Result<Texture> TextureImport::decode(int index, std::uint64_t bytes_per_texel) 
                     largest_extent);
     }
     const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-    if (const auto room = budget_.take(texels, bytes_per_texel, fmt::format("image {}", index)); !room) return room.error();
+    const std::uint64_t bytes = bytes_with_mips(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+    if (bytes > largest_blobs_section) {
+        return fail(
+            Fault::bad_input, "import.gltf.image_bytes",
+            "image {image} '{name:.80}' has {width} x {height} texels, with mips {bytes} bytes; a capture holds at most {most} "
+            "bytes for a texture",
+            index, image.name.empty() ? image.uri : image.name, width, height, bytes, largest_blobs_section);
+    }
+    if (const auto taken = budget_.take(texels, room.bytes_per_texel, fmt::format("image {}", index)); !taken)
+        return taken.error();
+    room.texels = texels;
     const auto load = [&] { return stbi_load_from_memory(encoded, size, &width, &height, &channels, STBI_rgb_alpha); };
+    forget_stb_problem();
     std::unique_ptr<stbi_uc, void (*)(void*)> pixels(load(), stbi_image_free);
     Texture texture;
     texture.texels.resize(4 * texels);
-    // stb does not say of every allocation that it failed: there was room for the texels, so the image is tried again.
-    if (!pixels) pixels.reset(load());
+    // Of some allocations that failed stb says nothing: there was room for the texels, so such an image is tried again.
+    if (!pixels && !stb_gave_a_reason()) pixels.reset(load());
     if (!pixels)
         return fail(Fault::bad_input, "import.gltf.image_damaged", "image {image} is damaged: {reason}", index,
-                    stb_problem("it ends early"));
+                    stb_gave_a_reason() ? stb_problem("") : "it ends early");
     texture.name = image.name.empty() ? image.uri : image.name;
     texture.width = static_cast<std::uint32_t>(width);
     texture.height = static_cast<std::uint32_t>(height);
@@ -68,18 +124,24 @@ Result<Texture> TextureImport::decode(int index, std::uint64_t bytes_per_texel) 
     return texture;
 }
 
-AddressMode TextureImport::address_mode(const TextureSource& texture) {
-    if (texture.sampler < 0 || static_cast<std::size_t>(texture.sampler) >= document_.samplers.size()) return AddressMode::repeat;
+Sampling TextureImport::sampling(const TextureSource& texture) const {
+    if (texture.sampler < 0 || static_cast<std::size_t>(texture.sampler) >= document_.samplers.size()) return {};
     const Sampler& sampler = document_.samplers[static_cast<std::size_t>(texture.sampler)];
-    if (sampler.mag_filter == nearest_filter) {
-        warnings_.push_back("a sampler asks for nearest filtering; all textures are filtered trilinearly");
-    }
     const auto along = [](std::uint64_t wrap) {
         return wrap == clamp_to_edge ? AddressMode::clamp : wrap == mirrored_repeat ? AddressMode::mirror : AddressMode::repeat;
     };
     std::uint32_t mode = 0;
     while (address_u(AddressMode{mode}) != along(sampler.wrap_s) || address_v(AddressMode{mode}) != along(sampler.wrap_t)) ++mode;
-    return AddressMode{mode};
+    const std::uint64_t least = sampler.min_filter;
+    const bool has_mips = least >= nearest_mipmap_nearest;
+    const bool mixes_mips = least == nearest_mipmap_linear || least == linear_mipmap_linear;
+    const bool is_nearest = least == nearest_filter || least == nearest_mipmap_nearest || least == nearest_mipmap_linear;
+    return {.address = AddressMode{mode},
+            .magnify = sampler.mag_filter == nearest_filter ? TexelFilter::nearest : TexelFilter::linear,
+            .minify = is_nearest ? TexelFilter::nearest : TexelFilter::linear,
+            .between_mips = mixes_mips ? MipFilter::linear
+                            : has_mips ? MipFilter::nearest
+                                       : MipFilter::none};
 }
 
 std::uint32_t TextureImport::add(int index, Encoding encoding, AlphaUse alpha) {
@@ -99,36 +161,50 @@ void TextureImport::leave_out(int index, const Error& why) {
 
 Result<std::uint32_t> TextureImport::convert(const TextureSource& source, Encoding encoding, AlphaUse alpha) {
     const auto image = static_cast<std::size_t>(source.image);
-    const AddressMode address = address_mode(source);
+    const Sampling used = sampling(source);
     const BlobHash content = source.image >= 0 ? blob_hash(document_.images[image].content.bytes) : BlobHash();
-    if (const auto same = converted_.find({content, address, encoding, alpha}); same != converted_.end()) return same->second;
-    auto decoded = decode(source.image, recorded_bytes_per_texel);
+    if (const auto same = converted_.find({content, used, encoding, alpha}); same != converted_.end()) return same->second;
+    Room room{budget_, recorded_bytes_per_texel};
+    auto decoded = decode(source.image, room);
     if (!decoded) return decoded.error();
     decoded->format = encoding == Encoding::srgb ? TextureFormat::rgba8_srgb : TextureFormat::rgba8_unorm;
-    decoded->address = address;
+    decoded->address = used.address;
+    decoded->magnify = used.magnify;
+    decoded->minify = used.minify;
+    decoded->between_mips = used.between_mips;
     if (alpha == AlphaUse::ignored) {
         for (std::size_t i = 3; i < decoded->texels.size(); i += 4) decoded->texels[i] = std::byte{255};
     }
-    textures_.push_back(with_mips(*std::move(decoded)));
+    if (const auto kept = keep(with_mips(*std::move(decoded))); !kept) return kept.error();
+    if (!take_) room.keep();
     const auto made = static_cast<std::uint32_t>(textures_.size() - 1);
-    converted_.emplace(Use(content, address, encoding, alpha), made);
+    converted_.emplace(Use(content, used, encoding, alpha), made);
     return made;
 }
 
-const Texture* TextureImport::data(int index) {
-    if (index < 0) return nullptr;
-    const auto [known, fresh] = data_.try_emplace(index);
-    if (fresh) {
-        const TextureSource& source = document_.textures[static_cast<std::size_t>(index)];
-        auto decoded = decode(source.image, decoded_bytes_per_texel);
-        if (!decoded) {
-            leave_out(index, decoded.error());
-        } else {
-            decoded->address = address_mode(source);
-            known->second = *std::move(decoded);
-        }
+Result<void> TextureImport::keep(Texture texture) {
+    if (!take_) {
+        textures_.push_back(std::move(texture));
+        return {};
     }
-    return known->second ? &*known->second : nullptr;
+    textures_.push_back(without_finest_mips(texture));
+    const Texture& kept = textures_.back();
+    const auto room = budget_.take(kept.texels.size() / 4, recorded_bytes_per_texel, "the textures of the thumbnail");
+    if (!room) return room;
+    const auto taken = take_(std::move(texture));
+    if (!taken && !problem_) problem_ = taken.error();
+    return taken;
+}
+
+void TextureImport::read(int index, Encoding encoding, const std::function<void(const Texture&)>& visit) {
+    if (index < 0) return;
+    const TextureSource& source = document_.textures[static_cast<std::size_t>(index)];
+    Room room{budget_, decoded_bytes_per_texel};
+    auto decoded = decode(source.image, room);
+    if (!decoded) return leave_out(index, decoded.error());
+    decoded->format = encoding == Encoding::srgb ? TextureFormat::rgba8_srgb : TextureFormat::rgba8_unorm;
+    decoded->address = sampling(source).address;
+    visit(*decoded);
 }
 
 }  // namespace strata::gltf

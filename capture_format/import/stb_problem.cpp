@@ -5,6 +5,23 @@
 #include <stb_image.h>
 
 namespace strata {
+namespace {
+
+/// What stb says of no bytes, and never of a file whose first bytes are those of a PNG or JPEG.
+constexpr std::string_view said_of_nothing = "unknown image type";
+
+}  // namespace
+
+void forget_stb_problem() {
+    constexpr stbi_uc nothing = 0;
+    int width = 0, height = 0, channels = 0;
+    (void)stbi_info_from_memory(&nothing, 0, &width, &height, &channels);
+}
+
+bool stb_gave_a_reason() {
+    const char* const reason = stbi_failure_reason();
+    return reason && reason != said_of_nothing;
+}
 
 std::string_view stb_problem(std::string_view otherwise) {
     const char* const reason = stbi_failure_reason();

@@ -167,7 +167,7 @@ dvec3 DirectLight::irradiance(std::size_t index, const LitSide& side, dvec2 plac
     point.position = side.position;
     const PlacedLight at = placed(*frame_, point, light);
     const bool is_sun = !has_range(light.type), is_emitter = is_area(light.type);
-    const double window = is_sun ? 1 : range_window(glm::length(at.offset), double(light.range));
+    const double window = is_sun ? 1 : range_window(light, glm::length(at.offset));
     if (window == 0 || is_behind(at)) return dvec3(0);
     const Sent result = sent(at, side, place);
     if (result.irradiance == dvec3(0) || is_clipped(*frame_, light, side.position)) return dvec3(0);

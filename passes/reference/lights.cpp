@@ -71,7 +71,7 @@ Incident incident(const PlacedLight& at, const SurfacePoint& surface) {
     if (distance == 0) return {};
     const glm::dvec3 to_light = at.offset / distance;
     const double squared = std::max(distance * distance, nearest_light * nearest_light);
-    glm::dvec3 share(range_window(distance, double(at.light->range)) / squared);
+    glm::dvec3 share(range_window(*at.light, distance) / squared);
     if (is_spot(at.light->type)) {
         share *= spot_share(at, to_light);
         if (share != glm::dvec3(0) && at.light->texture != no_index) share *= thrown_color(at, surface);
@@ -96,14 +96,15 @@ glm::dvec3 reflected_punctual(const SurfacePoint& surface, const PlacedLight& at
 // What either form of an area light is multiplied with: 0 where there is nothing to reflect.
 double area_window(const SurfacePoint& surface, const PlacedLight& at) {
     if (surface.model == LightingModel::unlit || is_behind(at)) return 0;
-    return range_window(glm::length(at.offset), double(at.light->range));
+    return range_window(*at.light, glm::length(at.offset));
 }
 
 }  // namespace
 
-double range_window(double distance, double range) {
-    const double rest = std::clamp(1 - std::pow(distance / range, 4), 0.0, 1.0);
-    return distance < range ? rest * rest : 0;
+double range_window(const Light& light, double distance) {
+    if (distance >= double(light.range)) return 0;
+    const double rest = 1 - std::pow(distance / double(light.range), 4);
+    return light.window == RangeWindow::quartic ? rest : rest * rest;
 }
 
 double square_edge(double s, double feather) {

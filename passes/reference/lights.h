@@ -32,7 +32,7 @@ struct ExactOptions {
 glm::dvec3 exact_reflected(const Frame&, const SurfacePoint&, const Light&, const ExactOptions& = {});
 
 /// 1 at a distance of 0 from the light, 0 from the range on.
-double range_window(double distance, double range);
+double range_window(const Light&, double distance);
 
 /// How much of a square spot is left at s half widths from its axis: 1 until the feather begins, 0 from the edge on. Without a
 /// feather everything up to the edge is lit.

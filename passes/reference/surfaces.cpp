@@ -27,13 +27,13 @@ glm::dvec4 texture_at(const Frame& frame, const TextureUse& use, const Footprint
     const glm::dvec2 uv = transformed(use, footprint.here.uv[set]);
     const glm::dvec2 per_x = footprint.sign_x * (transformed(use, footprint.along_x.uv[set]) - uv);
     const glm::dvec2 per_y = footprint.sign_y * (transformed(use, footprint.along_y.uv[set]) - uv);
-    return trilinear(texture, uv, level_of_detail(texture, per_x, per_y));
+    return filtered(texture, uv, level_of_detail(texture, per_x, per_y));
 }
 
 /// Of mip 0: what rays see, having no pixel to filter over.
 glm::dvec4 finest_texel(const Frame& frame, const TextureUse& use, const Attributes& at) {
     if (use.texture == no_index) return glm::dvec4(1);
-    return bilinear(frame.textures[use.texture], 0, transformed(use, at.uv[use.uv_set == 0 ? 0 : 1]));
+    return filtered(frame.textures[use.texture], transformed(use, at.uv[use.uv_set == 0 ? 0 : 1]), 0);
 }
 
 Footprint footprint_at(const Frame& frame, const RasterPoint& point, const Corners& corners, const glm::dvec3& position) {

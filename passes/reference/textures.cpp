@@ -85,6 +85,18 @@ glm::dvec4 texel(const Texture& texture, std::uint32_t mip, std::uint32_t x, std
     return texel_at(texture, mip_offset(texture, mip) + std::size_t(y) * mip_size(texture.width, mip) + x);
 }
 
+namespace {
+
+/// The texel that holds uv.
+glm::dvec4 nearest(const Texture& texture, std::uint32_t mip, const glm::dvec2& uv) {
+    const std::uint32_t width = mip_size(texture.width, mip), height = mip_size(texture.height, mip);
+    const auto place = [](double texels) { return static_cast<std::int64_t>(std::floor(bounded(texels))); };
+    return texel(texture, mip, wrapped(place(uv.x * width), width, address_u(texture.address)),
+                 wrapped(place(uv.y * height), height, address_v(texture.address)));
+}
+
+}  // namespace
+
 glm::dvec4 bilinear(const Texture& texture, std::uint32_t mip, const glm::dvec2& uv) {
     const std::uint32_t width = mip_size(texture.width, mip), height = mip_size(texture.height, mip);
     const double u = bounded(uv.x * width - 0.5), v = bounded(uv.y * height - 0.5);
@@ -107,6 +119,18 @@ glm::dvec4 trilinear(const Texture& texture, const glm::dvec2& uv, double lod) {
     const glm::dvec4 first = bilinear(texture, fine, uv);
     if (coarser_share == 0) return first;
     return glm::mix(first, bilinear(texture, fine + 1, uv), coarser_share);
+}
+
+glm::dvec4 filtered(const Texture& texture, const glm::dvec2& uv, double lod) {
+    const double level = std::isnan(lod) ? 0 : lod;
+    const double last = texture.mips - 1.0;
+    double mip = std::clamp(level, 0.0, last);
+    if (texture.between_mips == MipFilter::none) mip = 0;
+    if (texture.between_mips == MipFilter::nearest) mip = std::ceil(mip - 0.5);
+    if ((level > 0 ? texture.minify : texture.magnify) == TexelFilter::linear) return trilinear(texture, uv, mip);
+    const auto fine = static_cast<std::uint32_t>(mip);
+    const glm::dvec4 first = nearest(texture, fine, uv);
+    return mip == fine ? first : glm::mix(first, nearest(texture, fine + 1, uv), mip - fine);
 }
 
 double level_of_detail(const Texture& texture, const glm::dvec2& uv_per_x, const glm::dvec2& uv_per_y) {

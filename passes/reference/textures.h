@@ -1,4 +1,4 @@
-// Texels in double: bilinear and trilinear filtering as passes/shaders/material.glsl defines them, without any sampler.
+// Texels in double: filtering as passes/shaders/material.glsl defines them, without any sampler.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +21,9 @@ glm::dvec4 bilinear(const Texture&, std::uint32_t mip, const glm::dvec2& uv);
 
 /// Two bilinear taps mixed by the fraction of the level of detail, which is clamped to [0, mips - 1].
 glm::dvec4 trilinear(const Texture&, const glm::dvec2& uv, double lod);
+
+/// As the texture's filters say, at any level of detail: 0 or less is magnified.
+glm::dvec4 filtered(const Texture&, const glm::dvec2& uv, double lod);
 
 /// log2 of the longer of the two derivatives of uv per pixel, in texels of mip 0.
 double level_of_detail(const Texture&, const glm::dvec2& uv_per_x, const glm::dvec2& uv_per_y);

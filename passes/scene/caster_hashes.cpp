@@ -21,6 +21,7 @@ std::uint64_t hash_of(const Mesh& mesh) {
 std::uint64_t hash_of(const Texture& texture) {
     Digest digest;
     digest.add(texture.format).add(texture.width).add(texture.height).add(texture.mips).add(texture.address);
+    digest.add(texture.magnify).add(texture.minify).add(texture.between_mips);
     return digest.add_all(texture.texels).value();
 }
 

@@ -38,6 +38,7 @@ LightRecord record(const Frame& frame, const Light& light) {
         .shadow = no_index,
         .shadow_slots = 0,
         .visibility_layer = no_index,
+        .window = static_cast<uint>(light.window),
     };
 }
 

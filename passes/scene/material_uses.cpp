@@ -9,6 +9,7 @@
 #include "passes/graph/graph.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/shaders/scene/materials.shared.h"
+#include "passes/shaders/textures.shared.h"
 #include "passes/shaders/uses.shared.h"
 
 namespace strata {
@@ -21,9 +22,10 @@ void add(const Frame& frame, std::uint32_t texture, std::uint32_t kind, Material
     uses.textures |= 1u << kind;
     uses.formats |= bit(frame.textures[texture].format);
     uses.addresses |= bit(address_u(frame.textures[texture].address)) | bit(address_v(frame.textures[texture].address));
+    uses.filters |= filter_bits(frame.textures[texture]);
 }
 
-/// A picture is clamped, whatever its texture says (passes/shaders/projected_texture.glsl).
+/// A picture is clamped and filtered linearly, whatever its texture says (passes/shaders/projected_texture.glsl).
 void add_picture(const Frame& frame, const Light& light, MaterialUses& uses) {
     if (light.texture == no_index) return;
     uses.formats |= bit(frame.textures[light.texture].format);
@@ -76,6 +78,13 @@ std::uint32_t unread(const MaterialUses& uses, Surfaces surfaces) {
 
 }  // namespace
 
+std::uint32_t filter_bits(const Texture& texture) {
+    const std::uint32_t sampling = (texture.magnify == TexelFilter::nearest ? magnifies_nearest : 0u) |
+                                   (texture.minify == TexelFilter::nearest ? minifies_nearest : 0u) |
+                                   static_cast<std::uint32_t>(texture.between_mips) << mip_shift;
+    return sampling >> filter_shift;
+}
+
 MaterialUses material_uses(const Frame& frame, const DrawLists& lists, Surfaces surfaces) {
     MaterialUses uses;
     for (const std::uint32_t index : surfaces == Surfaces::opaque ? lists.opaque : lists.transparent) {
@@ -98,6 +107,7 @@ DrawStep& fix_materials(DrawStep& builder, const FrameImages& images, Surfaces s
     return builder.fixes("used_textures", uses.textures)
         .fixes("used_formats", uses.formats)
         .fixes("used_addresses", uses.addresses)
+        .fixes("used_filters", uses.filters)
         .fixes("used_models", uses.models)
         .fixes("used_alpha_modes", uses.alpha_modes)
         .fixes("used_properties", uses.properties)

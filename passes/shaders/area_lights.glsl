@@ -148,7 +148,7 @@ vec3 reflected_by_outline(MaterialPoint m, LightRecord light, Outline outline, u
 // Discs and rectangles shine to their front only. The window is that of the distance from the light's center.
 vec3 reflected_area(MaterialPoint m, LightRecord light, uint features) {
     const vec3 offset = light.position - m.position;
-    const float window = range_window(length(offset), light.range);
+    const float window = range_window(light, length(offset));
     const bool one_sided = light_is_flat(light.type);
     if (window <= 0.0 || m.lighting_model == model_unlit || (one_sided && dot(offset, light.direction) >= 0.0)) return vec3(0.0);
     const Outline outline = outline_of(light, offset, m.normal, features);

@@ -24,6 +24,9 @@ static_assert(light_rectangle == in_glsl(LightType::rectangle));
 static_assert(light_directional == in_glsl(LightType::directional));
 static_assert(light_type_table.size() == 8, "light_types.shared.h has every type");
 
+static_assert(window_squared_quartic == in_glsl(RangeWindow::squared_quartic));
+static_assert(window_quartic == in_glsl(RangeWindow::quartic));
+
 static_assert(model_unlit == in_glsl(LightingModel::unlit));
 static_assert(model_lambert == in_glsl(LightingModel::lambert));
 static_assert(model_burley == in_glsl(LightingModel::burley));
@@ -53,6 +56,10 @@ static_assert(address_repeat == in_glsl(AddressMode::repeat));
 static_assert(address_clamp == in_glsl(AddressMode::clamp));
 static_assert(in_glsl(AddressMode::mirror) == 2 && address_clamp_both == (address_clamp | address_clamp << 2u),
               "two bits hold the mode of one direction");
+static_assert(in_glsl(TexelFilter::nearest) == 1, "a bit of TextureRecord::sampling is set for nearest");
+static_assert(mip_linear == in_glsl(MipFilter::linear));
+static_assert(mip_nearest == in_glsl(MipFilter::nearest));
+static_assert(mip_none == in_glsl(MipFilter::none));
 
 }  // namespace
 }  // namespace strata

@@ -17,7 +17,7 @@ layout(constant_id = 40) const uint hands_on_material = 0u;
 layout(location = 8) flat out vec4 out_base_color;
 layout(location = 9) flat out uvec4 out_modes;         // alpha_mode, lighting_model, double_sided; the draw's layer
 layout(location = 10) flat out uvec4 out_texture;      // of the base color: first, format, width, height
-layout(location = 11) flat out uvec4 out_texture_use;  // mips, address; uv_set, texture
+layout(location = 11) flat out uvec4 out_texture_use;  // mips, sampling; uv_set, texture
 layout(location = 12) flat out vec4 out_row0;          // w: the draw's soft_fade
 layout(location = 13) flat out vec4 out_row1;          // w: distortion
 
@@ -35,7 +35,7 @@ void hand_on_material(DrawRecord d) {
     out_base_color = m.base_color;
     out_modes = uvec4(m.alpha_mode, m.lighting_model, m.double_sided, d.layer);
     out_texture = uvec4(t.first, t.format, t.width, t.height);
-    out_texture_use = uvec4(t.mips, t.address, use.uv_set, use.texture);
+    out_texture_use = uvec4(t.mips, t.sampling, use.uv_set, use.texture);
     out_row0 = vec4(use.row0, d.soft_fade);
     out_row1 = vec4(use.row1, m.distortion);
 }

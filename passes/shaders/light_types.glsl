@@ -8,10 +8,10 @@
 bool is_asked(uint features, uint feature) { return (features & feature) != 0u; }
 
 // 1 at the light, exactly 0 from its range on: what makes culling by range lossless.
-float range_window(float d, float range) {
-    const float share = d / range;
+float range_window(LightRecord light, float d) {
+    const float share = d / light.range;
     const float rest = clamp(1.0 - share * share * share * share, 0.0, 1.0);
-    return d < range ? rest * rest : 0.0;
+    return d < light.range ? rest * (light.window == window_quartic ? 1.0 : rest) : 0.0;
 }
 
 // The sphere around a round cone of half angle below 90 degrees: how far ahead of the apex its center is, and its radius. Up to 45

@@ -22,6 +22,9 @@ const uint light_disc = 5u;
 const uint light_rectangle = 6u;
 const uint light_directional = 7u;
 
+const uint window_squared_quartic = 0u;
+const uint window_quartic = 1u;
+
 bool light_has_range(uint type) { return type != light_directional; }
 bool light_has_round_cone(uint type) { return type == light_round_spot; }
 bool light_has_square_cone(uint type) { return type == light_square_spot; }

@@ -48,7 +48,7 @@ Incident incident_light(LightRecord light, MaterialPoint m, uint features) {
     if (d >= light.range || d < 1e-12) return Incident(vec3(0.0), vec3(0.0));
     const vec3 to_light = offset / d;
     const float cone = cone_share(light, m, to_light, features);
-    const float fall_off = range_window(d, light.range) * cone / max(squared, nearest_light * nearest_light);
+    const float fall_off = range_window(light, d) * cone / max(squared, nearest_light * nearest_light);
     vec3 irradiance = light.intensity * fall_off;
     const bool is_spot = light_is_spot(light.type);
     if (is_asked(features, feature_projected_texture) && light.texture != no_index && is_spot && cone > 0.0)

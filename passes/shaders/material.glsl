@@ -14,11 +14,11 @@ struct Footprint {
 
 Footprint footprint(vec4 uv) { return Footprint(uv, dFdxFine(uv), dFdyFine(uv)); }
 
-// log2 of the longer side of the pixel's footprint in texels of the finest mip, within the mips there are.
+// log2 of the longer side of the pixel's footprint in texels of the finest mip, 0 where it is magnified.
 float level_of_detail(TextureRecord t, vec2 dx, vec2 dy) {
     const vec2 size = vec2(t.width, t.height);
     const float side = max(length(dx * size), length(dy * size));
-    return clamp(log2(max(side, 1.0)), 0.0, float(t.mips - 1u));
+    return max(log2(max(side, 1.0)), 0.0);
 }
 
 // The same of a use of the texture, whose transform turns and stretches the footprint.
@@ -32,7 +32,7 @@ float level_of_detail(TextureRecord t, TextureUseRecord use, Footprint f) {
 // A texture at (uv0, uv1), the transform of its use applied.
 vec4 texture_at(TextureRecord t, TextureUseRecord use, Footprint f) {
     const vec3 uv = vec3(use.uv_set == 0u ? f.uv.xy : f.uv.zw, 1.0);
-    return trilinear(t, vec2(dot(use.row0, uv), dot(use.row1, uv)), level_of_detail(t, use, f));
+    return filtered(t, vec2(dot(use.row0, uv), dot(use.row1, uv)), level_of_detail(t, use, f));
 }
 
 // White where there is none.

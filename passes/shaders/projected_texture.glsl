@@ -9,10 +9,10 @@
 
 vec3 axis_v(LightRecord light) { return cross(light.direction, light.axis_u); }
 
-// A picture of clamped address: pictures neither repeat nor mirror.
+// A picture of clamped address, filtered linearly: pictures neither repeat nor mirror.
 TextureRecord picture(LightRecord light) {
     TextureRecord t = textures[light.texture];
-    t.address = address_clamp_both;
+    t.sampling = address_clamp_both;
     return t;
 }
 

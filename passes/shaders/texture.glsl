@@ -9,6 +9,8 @@
 layout(constant_id = 21) const uint used_formats = 0xffffffffu;
 // Their address modes, as bits 1 << mode of one direction.
 layout(constant_id = 23) const uint used_addresses = 0xffffffffu;
+// TextureRecord::sampling >> filter_shift of all of them; 0: all are filtered linearly.
+layout(constant_id = 27) const uint used_filters = 0xffffffffu;
 
 bool has_format(uint format) { return (used_formats & (1u << format)) != 0u; }
 
@@ -56,15 +58,16 @@ struct Mip {
 
 Mip coarser(Mip mip) { return Mip(mip.base + mip.size.x * mip.size.y, max(uvec2(1u), mip.size >> 1u)); }
 
-// One mip, bilinear: texel centers at +.5. sRGB decodes before filtering.
-vec4 bilinear(TextureRecord t, Mip mip, vec2 uv) {
+// One mip, bilinear: texel centers at +.5. sRGB decodes before filtering. The nearest texel instead is the one that holds uv.
+vec4 in_mip(TextureRecord t, Mip mip, vec2 uv, bool is_nearest) {
     const ivec2 size = ivec2(mip.size);
-    const vec2 at = uv * vec2(size) - 0.5;
+    const vec2 at = uv * vec2(size) - (is_nearest ? 0.0 : 0.5);
     const vec2 corner = floor(at);
-    const vec2 f = at - corner;
+    const vec2 f = is_nearest ? vec2(0.0) : at - corner;
     const ivec2 low = ivec2(corner);
-    const uvec2 modes = uvec2(t.address & 3u, t.address >> 2u);
-    const uvec4 corners = uvec4(wrapped(ivec4(low, low + 1), size.xyxy, modes.xyxy));  // x, y low, x, y high
+    const uvec2 modes = uvec2(t.sampling & 3u, t.sampling >> 2u & 3u);
+    const ivec2 high = is_nearest ? low : low + 1;
+    const uvec4 corners = uvec4(wrapped(ivec4(low, high), size.xyxy, modes.xyxy));  // x, y low, x, y high
     vec4 upper = vec4(0.0), lower = vec4(0.0);
     for (uint row = 0u; row < 2u; ++row) {
         const uint first = mip.base + (row == 0u ? corners.y : corners.w) * uint(size.x);
@@ -74,23 +77,37 @@ vec4 bilinear(TextureRecord t, Mip mip, vec2 uv) {
     return mix(upper, lower, f.y);
 }
 
+vec4 bilinear(TextureRecord t, Mip mip, vec2 uv) { return in_mip(t, mip, uv, false); }
+
 Mip mip_of(TextureRecord t, uint number) {
     Mip mip = Mip(0u, uvec2(t.width, t.height));
     for (uint m = 0u; m < number; ++m) mip = coarser(mip);
     return mip;
 }
 
-vec4 trilinear(TextureRecord t, vec2 uv, float lod) {
+// Two mips mixed, each read as in_mip() says.
+vec4 in_mips(TextureRecord t, vec2 uv, float lod, bool is_nearest) {
     const float finer = floor(lod);
     Mip mip = mip_of(t, uint(finer));
     vec4 fine = vec4(0.0), coarse = vec4(0.0);
     const uint mips = lod == finer ? 1u : 2u;
     for (uint i = 0u; i < mips; ++i) {
         fine = coarse;
-        coarse = bilinear(t, mip, uv);
+        coarse = in_mip(t, mip, uv, is_nearest);
         mip = coarser(mip);
     }
     return mips == 1u ? coarse : mix(fine, coarse, lod - finer);
+}
+
+vec4 trilinear(TextureRecord t, vec2 uv, float lod) { return in_mips(t, uv, lod, false); }
+
+// As the texture's filters say. The level of detail may be above the mips there are: what is minified is so with one mip, too.
+vec4 filtered(TextureRecord t, vec2 uv, float lod) {
+    const float level = min(lod, float(t.mips - 1u));
+    if (used_filters == 0u) return trilinear(t, uv, level);
+    const uint mips = t.sampling >> mip_shift;
+    const bool is_nearest = (t.sampling & (lod > 0.0 ? minifies_nearest : magnifies_nearest)) != 0u;
+    return in_mips(t, uv, mips == mip_none ? 0.0 : mips == mip_nearest ? ceil(level - 0.5) : level, is_nearest);
 }
 
 #endif

@@ -44,10 +44,10 @@ struct Counts {
     std::size_t draws = 0, materials = 0, textures = 0, lights = 0;
 };
 
-/// Room for a frame that is being written and the next one, however large they are.
+/// Room for a frame, however large it is.
 RecorderOptions room_for(const Frame& frame) {
     RecorderOptions options;
-    options.budget_bytes = std::max(options.budget_bytes, 2 * recorded_bytes(frame));
+    options.budget_bytes = std::max(options.budget_bytes, recorded_bytes(frame));
     return options;
 }
 
@@ -68,33 +68,62 @@ void warn_of_darkness(const Texture& picture) {
             100 * share);
 }
 
-/// Frame after frame, so that an animation of a large scene never lies in memory as a whole. Returns what the last one holds.
-Result<Counts> record_frames(const ImportArguments& options, std::uint32_t count,
-                             const std::function<Result<Frame>(std::uint32_t)>& frame_at,
-                             const std::function<Result<std::optional<Texture>>(const Frame&)>& thumbnail_of_first) {
-    auto frame = frame_at(0);
-    if (!frame) return frame.error();
+/// The capture that an import writes, whole or not at all.
+struct CaptureBeingWritten {
+    WholeFile file;
+    Recorder recorder;
+
+    Result<void> finish() {
+        const auto finished = recorder.finish();
+        return finished ? file.commit() : finished;
+    }
+};
+
+Result<CaptureBeingWritten> begin_capture(const ImportArguments& options, const RecorderOptions& recording) {
     auto file = WholeFile::begin(output_of(options));
     if (!file) return file.error();
-    auto recorder = Recorder::create(file->temporary(), "imported from " + options.scene.filename().string(), room_for(*frame));
+    auto recorder = Recorder::create(file->temporary(), "imported from " + options.scene.filename().string(), recording);
     if (!recorder) return recorder.error();
-    const auto thumbnail = thumbnail_of_first(*frame);
-    if (!thumbnail) return thumbnail.error();
-    if (*thumbnail)
-        if (const auto done = recorder->thumbnail(**thumbnail); !done) return done.error();
-    const Progress progress = progress_line();
-    Counts counts;
-    for (std::uint32_t index = 0; index < count; ++index) {
-        show_frame(progress, index, count);
-        if (index > 0) frame = frame_at(index);
-        if (!frame) return frame.error();
-        counts = {frame->draws.size(), frame->materials.size(), frame->textures.size(), frame->lights.size()};
-        if (const auto done = recorder->record(*std::move(frame)); !done) return done.error();
-    }
-    if (const auto done = recorder->finish(); !done) return done.error();
-    if (const auto done = file->commit(); !done) return done.error();
-    return counts;
+    return CaptureBeingWritten{*std::move(file), *std::move(recorder)};
 }
+
+Result<void> add_thumbnail(Recorder& recorder, const Result<std::optional<Texture>>& thumbnail) {
+    if (!thumbnail) return thumbnail.error();
+    return *thumbnail ? recorder.thumbnail(**thumbnail) : Result<void>();
+}
+
+/// Frames of a glTF scene, whose textures the recorder has been given. Each is written before the next one is handed over.
+class SceneRecording {
+public:
+    explicit SceneRecording(Recorder& recorder) : recorder_(recorder) {}
+
+    Result<void> add(Frame frame) {
+        if (const auto written = recorder_.flush(); !written) return written;
+        put_resources(frame);
+        recorder_.begin_frame(frame.view, frame.time, frame.index, frame.seed);
+        recorder_.draws(frame.draws);
+        for (Light& light : frame.lights) recorder_.light(std::move(light));
+        recorder_.environment(frame.sun, frame.hemisphere, frame.fog, frame.background);
+        recorder_.camera(frame.lens, frame.film);
+        return recorder_.end_frame();
+    }
+
+private:
+    /// Materials stay as they are; meshes that no longer are become empty ones.
+    void put_resources(Frame& frame) {
+        if (meshes_ == 0)
+            for (Material& material : frame.materials) recorder_.add_material(std::move(material));
+        frame.meshes.resize(std::max<std::size_t>(frame.meshes.size(), meshes_));
+        for (std::uint32_t i = 0; i < frame.meshes.size(); ++i) {
+            if (i < meshes_) recorder_.update_mesh(i, std::move(frame.meshes[i]));
+            else recorder_.add_mesh(std::move(frame.meshes[i]));
+        }
+        meshes_ = static_cast<std::uint32_t>(frame.meshes.size());
+    }
+
+    Recorder& recorder_;
+    std::uint32_t meshes_ = 0;
+};
 
 /// The thumbnail of a deep image, by the exposure and the tone curve of its frame, without a device.
 std::optional<Texture> developed(const Frame& frame, std::span<const glm::dvec3> preview) {
@@ -128,10 +157,11 @@ Result<void> import_deep_image(const ImportArguments& options) {
     auto image = import_deep(options.scene, of_deep);
     if (!image) return image.error();
     print_warnings(image->warnings);
-    const auto recorded = record_frames(
-        options, 1, [&](std::uint32_t) { return std::move(image->frame); },
-        [&](const Frame& frame) { return developed(frame, image->preview); });
-    if (!recorded) return recorded.error();
+    auto output = begin_capture(options, room_for(image->frame));
+    if (!output) return output.error();
+    if (const auto done = add_thumbnail(output->recorder, developed(image->frame, image->preview)); !done) return done;
+    if (const auto done = output->recorder.record(std::move(image->frame)); !done) return done;
+    if (const auto done = output->finish(); !done) return done;
     const DeepCensus& census = image->census;
     to_stderr("imported {} of {} as {} in {}, {} in the deepest, into {}\n", plural(census.samples, "sample"),
               options.scene.filename().string(), plural(census.fragments, "fragment"), plural(census.pixels, "pixel"),
@@ -152,6 +182,28 @@ std::vector<std::string> notes_on_view(const Frame& frame) {
     if (share >= little) return {};
     return {fmt::format("the scene covers {:.1f} % of the picture; place the camera with --eye and --target, or with --inside",
                         100 * share)};
+}
+
+/// Frame after frame, so that an animation of a large scene never lies in memory as a whole. Returns what the last one holds.
+Result<Counts> record_scene(const ImportArguments& options, GltfScene& scene, Recorder& recorder,
+                            std::vector<std::string>& notes) {
+    const Progress progress = progress_line();
+    SceneRecording recording(recorder);
+    Counts counts;
+    for (std::uint32_t index = 0; index < options.frames; ++index) {
+        show_frame(progress, index, options.frames);
+        auto frame = scene.frame(index);
+        if (!frame) return frame.error();
+        counts = {frame->draws.size(), frame->materials.size(), frame->textures.size(), frame->lights.size()};
+        if (index == 0) {
+            notes = notes_on_view(*frame);
+            const auto thumbnail = make_thumbnail(*frame, options.device);
+            if (const auto done = add_thumbnail(recorder, thumbnail); !done) return done.error();
+            if (*thumbnail) warn_of_darkness(**thumbnail);
+        }
+        if (const auto done = recording.add(*std::move(frame)); !done) return done.error();
+    }
+    return counts;
 }
 
 Result<void> import(const ImportArguments& options, const CLI::App& app) {
@@ -179,23 +231,21 @@ Result<void> import(const ImportArguments& options, const CLI::App& app) {
     if (!options.eye.empty()) gltf.eye = glm::dvec3(options.eye[0], options.eye[1], options.eye[2]);
     if (!options.target.empty()) gltf.target = glm::dvec3(options.target[0], options.target[1], options.target[2]);
     std::tie(gltf.width, gltf.height) = *extent;
+    // What is handed over is written before there is more, so the budget of the import bounds it.
+    auto output = begin_capture(options, {.budget_bytes = std::numeric_limits<std::uint64_t>::max()});
+    if (!output) return output.error();
+    gltf.take_texture = [&output](Texture texture) {
+        output->recorder.add_texture(std::move(texture));
+        return output->recorder.flush();
+    };
     auto scene = GltfScene::open(options.scene, gltf);
     if (!scene) return scene.error();
     std::vector<std::string> notes;
-    const auto frame_at = [&](std::uint32_t index) {
-        auto frame = scene->frame(index);
-        if (index == 0 && frame) notes = notes_on_view(*frame);
-        return frame;
-    };
-    const auto replayed = [&](const Frame& frame) {
-        auto thumbnail = make_thumbnail(frame, options.device);
-        if (thumbnail && *thumbnail) warn_of_darkness(**thumbnail);
-        return thumbnail;
-    };
-    const auto last = record_frames(options, options.frames, frame_at, replayed);
+    const auto last = record_scene(options, *scene, output->recorder, notes);
     print_warnings(scene->warnings());
     print_warnings(notes);
     if (!last) return last.error();
+    if (const auto done = output->finish(); !done) return done;
     to_stderr("imported {}, {}, {}, {}, {} into {}\n", plural(options.frames, "frame"), plural(last->draws, "draw"),
               plural(last->materials, "material"), plural(last->textures, "texture"), plural(last->lights, "light"),
               output_of(options).string());

@@ -1,6 +1,7 @@
 // strata replay: every pass of the chosen frames again, headless; EXR, PNG and JSON.
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -246,6 +247,29 @@ Result<void> check_supported(const Request& request, const Run& run) {
                 request.variant.frame, first.technique, first.reason);
 }
 
+/// Which pixels of the picture are infinite or NaN; nothing where all are finite.
+std::string pixels_not_finite(const Run& run) {
+    const auto display = run.images.find("display");
+    if (display == run.images.end()) return {};
+    const Extent extent = display->second.shape.extent;
+    std::size_t count = 0;
+    std::string first;
+    for (std::uint32_t y = 0; y < extent.height; ++y)
+        for (std::uint32_t x = 0; x < extent.width; ++x) {
+            const glm::dvec4 color = texel(display->second, x, y);
+            if (std::isfinite(color.x) && std::isfinite(color.y) && std::isfinite(color.z)) continue;
+            if (count++ == 0) first = fmt::format("x {}, y {} ({}, {}, {})", x, y, color.x, color.y, color.z);
+        }
+    if (count == 0) return {};
+    return fmt::format("{} of the picture {} infinite or NaN, the first at {}, after step {}", plural(count, "pixel"),
+                       count == 1 ? "is" : "are", first, run.steps.empty() ? "none" : run.steps.back().name);
+}
+
+Result<void> check_finite(const Request& request, const std::string& pixels) {
+    if (pixels.empty()) return {};
+    return fail(Fault::over_tolerance, "replay.not_finite", "frame {frame}: {pixels}", request.variant.frame, pixels);
+}
+
 /// "811229 fragments, 187 deepest": what the technique of a choice line counted.
 std::string counters_of(const Run& run, std::string_view choice) {
     const std::string technique(choice.substr(0, choice.find(' ')));
@@ -318,7 +342,10 @@ Result<void> replay(const ReplayArguments& options) {
         if (options.timed > 0 && is_text) print_times(replayed->run);
         if (options.printed.csv) steps.push_back(steps_of(replayed->run, request->variant.frame));
         auto now = judge(*request, *replayed, options);
+        const std::string not_finite = pixels_not_finite(replayed->run);
+        if (!not_finite.empty()) to_stderr("strata: warning: frame {}: {}\n", request->variant.frame, not_finite);
         if (now && options.strict) now = check_supported(*request, replayed->run);
+        if (now && options.strict) now = check_finite(*request, not_finite);
         if (now) now = check_outputs(*request, replayed->run, options);
         if (!now && (judged || now.error().fault < judged.error().fault)) judged = now;
         all["frames"].push_back(std::move(replayed->json));
@@ -365,7 +392,7 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
                    "replace built-in shaders by those in the passes/ folder of this folder; needs "
                    "glslangValidator");
     app.add_flag("--strict", options->strict,
-                 "exit code 1 instead of a warning if a technique does not support a feature of the frame");
+                 "exit code 1 instead of a warning if a technique does not support the frame or the picture is not finite");
     app.add_flag("--expect", options->expect, "exit code 6 if the capture has no expected results for a frame");
     app.add_flag("--no-expect", options->no_expect, "do not compare with the capture's expected results");
     return [options, &app] {

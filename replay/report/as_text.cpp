@@ -133,6 +133,9 @@ std::string heading(const Report& report) {
         text +=
             fmt::format("left out of the errors: {:.3g} % of samples, where rounding decides what is drawn or in which order\n",
                         100 * measured->accuracy.undecided_share);
+    if (measured && measured->accuracy.not_numbers > 0)
+        text += fmt::format("left out of the errors: {}, NaN in the truth and in the result of {}\n",
+                            plural(measured->accuracy.not_numbers, of_picture ? "pixel" : "sample"), measured->technique);
     if (leaves_much(report))
         text += fmt::format("touched: errors over the {:.3g} % of {} that the stage changes\n",
                             100 * measured->accuracy.touched_share, of_picture ? "pixels" : "samples");

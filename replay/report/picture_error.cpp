@@ -43,10 +43,6 @@ void leave_out_undecided(const ReferenceImage& truth, ReferenceImage& display) {
         if (truth.undecided[i]) display.undecided[i % pixels] = true;
 }
 
-bool is_undecided(const ReferenceImage& image) {
-    return !image.undecided.empty() && std::ranges::count(image.undecided, false) == 0;
-}
-
 /// Smaller is better; shares in percent of the pixels that are compared.
 std::vector<Metric> metrics_of(const ReferenceImage& got, const ReferenceImage& wanted) {
     const Difference error = difference(got, wanted);
@@ -83,7 +79,7 @@ Result<PictureTruth> picture_truth(Session& session, const Request& request, Sta
 }
 
 Result<void> judge_picture(Session& session, Request request, const PictureTruth& truth, Accuracy& accuracy) {
-    if (is_undecided(truth.display)) {
+    if (is_all_left_out(truth.display)) {
         accuracy.not_supported = "no pixel can be judged: rounding decides what a sample of each of them shows";
         accuracy.technique_errors.clear();
         accuracy.flip.reset();
@@ -94,9 +90,18 @@ Result<void> judge_picture(Session& session, Request request, const PictureTruth
     if (!run) return run.error();
     const HostImage& display = run->images.at(picture);
     const ReferenceImage got = in_double(display);
-    accuracy.technique_errors = metrics_of(got, truth.display);
-    accuracy.flip = display_flip(color_planes(truth.display), color_planes(got)).mean;
-    accuracy.touched = truth.touched_share > 0 ? metrics_of(got, truth.touched) : std::vector<Metric>();
+    ReferenceImage wanted = truth.display, touched = truth.touched;
+    accuracy.not_numbers = leave_out_not_numbers(got, wanted);
+    leave_out_not_numbers(got, touched);
+    if (accuracy.not_numbers > 0 && is_all_left_out(wanted)) {
+        accuracy.not_supported = nothing_but_not_numbers(accuracy.not_numbers, "pixel");
+        accuracy.technique_errors.clear();
+        accuracy.flip.reset();
+        return {};
+    }
+    accuracy.technique_errors = metrics_of(got, wanted);
+    accuracy.flip = display_flip(color_planes(wanted), color_planes(got)).mean;
+    accuracy.touched = truth.touched_share > 0 ? metrics_of(got, touched) : std::vector<Metric>();
     accuracy.touched_share = truth.touched_share > 0 ? truth.touched_share : 1;
     return {};
 }

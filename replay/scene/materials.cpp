@@ -4,6 +4,8 @@
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/particles.h"
 #include "capture_format/frame/texture.h"
+#include "passes/scene/material_uses.h"
+#include "passes/shaders/textures.shared.h"
 #include "replay/scene/scene_records.h"
 
 namespace strata {
@@ -12,6 +14,11 @@ namespace {
 TextureUseRecord record(const TextureUse& use) {
     const auto& m = use.transform;
     return {.texture = use.texture, .uv_set = use.uv_set, .row0 = {m[0], m[1], m[2]}, .row1 = {m[3], m[4], m[5]}};
+}
+
+uint sampling(const Texture& t) {
+    return static_cast<uint>(address_u(t.address)) | static_cast<uint>(address_v(t.address)) << 2 |
+           filter_bits(t) << filter_shift;
 }
 
 MaterialRecord record(const Material& m) {
@@ -54,7 +61,7 @@ void add_textures(const Frame& frame, SceneRecords& scene) {
             .width = t.width,
             .height = t.height,
             .mips = t.mips,
-            .address = static_cast<uint>(address_u(t.address)) | static_cast<uint>(address_v(t.address)) << 2,
+            .sampling = sampling(t),
         });
         scene.texels.resize(first + t.texels.size() / 4);
         std::memcpy(scene.texels.data() + first, t.texels.data(), t.texels.size());

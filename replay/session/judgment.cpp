@@ -5,6 +5,7 @@
 
 #include "capture_format/frame/frame.h"
 #include "passes/frame_images.h"
+#include "passes/reference/difference.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/raster.h"
 #include "passes/registry.h"
@@ -195,6 +196,15 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
         accuracy.not_supported = "no sample can be judged: rounding decides what each of them shows";
         return;
     }
+    const auto wanted = truth.find(of_stage.outputs.front());
+    const auto got = stage.result.find(of_stage.outputs.front());
+    if (wanted != truth.end() && got != stage.result.end() && same_extent(got->second, wanted->second)) {
+        accuracy.not_numbers = leave_out_not_numbers(got->second, wanted->second);
+        if (accuracy.not_numbers > 0 && is_all_left_out(wanted->second)) {
+            accuracy.not_supported = nothing_but_not_numbers(accuracy.not_numbers, "sample");
+            return;
+        }
+    }
     accuracy.technique_errors = of_stage.judge(stage.result, truth, input);
     accuracy.flip = flip_of(of_stage, stage.result, truth);
     if (const auto share = keep_touched(of_stage, stage.before, truth)) {
@@ -215,6 +225,27 @@ std::optional<double> keep_touched(ReferenceImage& image, const ReferenceImage* 
         kept += !image.undecided[i];
     }
     return kept == 0 ? std::nullopt : std::optional(double(touched) / double(image.texels.size()));
+}
+
+std::size_t leave_out_not_numbers(const ReferenceImage& got, ReferenceImage& wanted) {
+    std::size_t count = 0;
+    wanted.undecided.resize(wanted.texels.size());
+    for (std::size_t i = 0; i < wanted.texels.size(); ++i) {
+        if (!decided(got, wanted, i)) continue;
+        const auto result = glm::isnan(glm::dvec3(got.texels[i])), truth = glm::isnan(glm::dvec3(wanted.texels[i]));
+        if (!(result.x && truth.x) && !(result.y && truth.y) && !(result.z && truth.z)) continue;
+        wanted.undecided[i] = true;
+        ++count;
+    }
+    return count;
+}
+
+std::string nothing_but_not_numbers(std::size_t count, std::string_view of) {
+    return fmt::format("no {} can be judged: {} of them are NaN in the result and in the truth", of, count);
+}
+
+bool is_all_left_out(const ReferenceImage& image) {
+    return !image.undecided.empty() && std::ranges::count(image.undecided, false) == 0;
 }
 
 void leave_out_sides(const Frame& frame, std::uint32_t device_snap_steps, ImageSet& images) {

@@ -1,8 +1,11 @@
 // A stage's result against its technique's model and the stage's truth. No device.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <stop_token>
+#include <string>
+#include <string_view>
 
 #include "passes/blend_rounding.h"
 #include "replay/session/session.h"
@@ -32,6 +35,13 @@ void leave_out_sides(const Frame&, std::uint32_t device_snap_steps, ImageSet&);
 /// Leaves out the texels whose color is that of an image of the same extent before (black, if null). The share of all texels
 /// that differ, undecided ones among them; nothing where no decided one does.
 std::optional<double> keep_touched(ReferenceImage&, const ReferenceImage* before);
+
+/// Leaves out the texels of which a color channel is NaN in both images: that is no agreement. Their number.
+std::size_t leave_out_not_numbers(const ReferenceImage& got, ReferenceImage& wanted);
+/// Why nothing can be judged, where so many are all texels; `of` names them, "sample".
+std::string nothing_but_not_numbers(std::size_t count, std::string_view of);
+/// Whether every texel is left out.
+bool is_all_left_out(const ReferenceImage&);
 
 /// The technique's model on the stage's inputs, in double.
 ImageSet run_model(const JudgedStage&);

@@ -144,6 +144,7 @@ struct Accuracy {
     std::optional<double> flip;              ///< mean of FLIP against the truth, of a stage that makes radiance
     std::vector<Metric> touched;             ///< the same over the samples that the truth changes, of a stage that makes radiance
     double touched_share = 1;                ///< of all samples
+    std::size_t not_numbers = 0;             ///< texels that are NaN in the result and in the truth: left out of these errors
     double undecided_share = 0;              ///< of samples, from errors against the truth: rounding decides what they show
     double model_rmse = 0, model_worst = 0;  ///< relative, see Tolerance
     std::size_t compared = 0, undecided = 0, trivial = 0;  ///< texels

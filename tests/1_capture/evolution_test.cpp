@@ -84,7 +84,14 @@ TEST(Evolution, TheFirstFrozenCaptureHoldsWhatWasRecorded) {
     EXPECT_EQ(capture->summary().notes, "one frame with something of everything");
     Frame recorded = rich_frame();
     // Fields that are younger than the capture.
-    for (Light& light : recorded.lights) light.shadow.soft = false;
+    for (Light& light : recorded.lights) {
+        light.shadow.soft = false;
+        light.window = RangeWindow::squared_quartic;
+    }
+    for (Texture& texture : recorded.textures) {
+        texture.magnify = texture.minify = TexelFilter::linear;
+        texture.between_mips = MipFilter::linear;
+    }
     recorded.fog.path = FogPath::view_depth;
     EXPECT_EQ(bits_of(*capture->frame(0)), bits_of(recorded));
 }

@@ -71,6 +71,9 @@ void expect_equal_textures(const Frame& a, const TextureUse& used, const Frame& 
     EXPECT_EQ(used.uv_set, read.uv_set);
     EXPECT_EQ(wanted.format, got.format) << wanted.name;
     EXPECT_EQ(wanted.address, got.address);
+    EXPECT_EQ(wanted.magnify, got.magnify) << wanted.name;
+    EXPECT_EQ(wanted.minify, got.minify) << wanted.name;
+    EXPECT_EQ(wanted.between_mips, got.between_mips) << wanted.name;
     ASSERT_EQ(wanted.texels.size(), got.texels.size());
     for (std::size_t i = 0; i < wanted.texels.size(); ++i) {
         if (i % 4 == 3 && got.texels[i] == std::byte{255}) continue;
@@ -157,6 +160,34 @@ TEST(ExportGltf, PunctualLightsComeBack) {
     EXPECT_LE(largest_difference(frame.lights[1].direction, got.lights[1].direction), rounding);
     EXPECT_EQ(frame.lights[1].inner_angle, got.lights[1].inner_angle);
     EXPECT_EQ(frame.lights[1].outer_angle, got.lights[1].outer_angle);
+}
+
+TEST(ExportGltf, FiltersComeBack) {
+    using enum MipFilter;
+    Frame frame = triangle_frame();
+    frame.meshes[0].uv0 = {{0, 0}, {1, 0}, {0, 1}};
+    frame.textures = {{.name = "checker", .width = 2, .height = 2, .texels = std::vector<std::byte>(16)}};
+    frame.materials[0].base_color_texture.texture = 0;
+    for (const TexelFilter magnify : {TexelFilter::linear, TexelFilter::nearest})
+        for (const TexelFilter minify : {TexelFilter::linear, TexelFilter::nearest})
+            for (const MipFilter between_mips : {linear, nearest, none}) {
+                Texture& wanted = frame.textures[0];
+                wanted.magnify = magnify;
+                wanted.minify = minify;
+                wanted.between_mips = between_mips;
+                const Texture got = read_back(frame).textures.at(0);
+                EXPECT_EQ(got.magnify, magnify);
+                EXPECT_EQ(got.minify, minify);
+                EXPECT_EQ(got.between_mips, between_mips);
+            }
+}
+
+TEST(ExportGltf, AWindowThatGltfDoesNotHaveIsNamed) {
+    Frame frame = triangle_frame();
+    frame.lights = {Light{.name = "lamp"}};
+    EXPECT_THAT(exported(frame).warnings, Contains(HasSubstr("readers of glTF end them by 1 - x^4 (1)")));
+    frame.lights[0].window = RangeWindow::quartic;
+    EXPECT_THAT(exported(frame).warnings, IsEmpty());
 }
 
 TEST(ExportGltf, GlassThatKeepsEnergyCanBeSaid) {

@@ -65,6 +65,19 @@ TEST(Features, OnlyColoredTransmissionIsChromatic) {
     EXPECT_TRUE(frame_features(frame).has(Feature::chromatic));
 }
 
+TEST(Features, LightWithoutCoverageIsAdditive) {
+    Frame frame = triangle_frame();
+    frame.materials[0].alpha_mode = AlphaMode::premultiplied;
+    EXPECT_FALSE(frame_features(frame).has(Feature::additive));
+    frame.materials[0].base_color.w = 0;
+    EXPECT_TRUE(frame_features(frame).has(Feature::additive));
+    Frame sparks = triangle_frame();
+    sparks.emitters = {{.name = "sparks", .particles = {{.alpha = .5f, .emissive = {1, 1, 1}}}}};
+    EXPECT_FALSE(frame_features(sparks).has(Feature::additive));
+    sparks.emitters[0].particles[0].alpha = 0;
+    EXPECT_TRUE(frame_features(sparks).has(Feature::additive));
+}
+
 TEST(Features, AShadowNeedsSomethingThatThrowsIt) {
     Frame frame = triangle_frame();
     frame.sun.shadow.casts = true;

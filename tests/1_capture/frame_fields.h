@@ -17,7 +17,10 @@ concept Is = std::is_same_v<std::remove_const_t<T>, Wanted>;
 
 // clang-format off
 auto fields(Is<View> auto& v) { auto& [a, b, c, d, e, f, g, h, i] = v; return std::tie(a, b, c, d, e, f, g, h, i); }
-auto fields(Is<Texture> auto& v) { auto& [a, b, c, d, e, f, g] = v; return std::tie(a, b, c, d, e, f, g); }
+auto fields(Is<Texture> auto& v) {
+    auto& [a, b, c, d, e, f, g, h, i, j] = v;
+    return std::tie(a, b, c, d, e, f, g, h, i, j);
+}
 auto fields(Is<Mesh> auto& v) { auto& [a, b, c, d, e, f, g, h] = v; return std::tie(a, b, c, d, e, f, g, h); }
 auto fields(Is<TextureUse> auto& v) { auto& [a, b, c] = v; return std::tie(a, b, c); }
 auto fields(Is<Material> auto& v) {
@@ -30,8 +33,8 @@ auto fields(Is<Emitter> auto& v) { auto& [a, b, c, d, e, f, g, h] = v; return st
 auto fields(Is<ShadowUse> auto& v) { auto& [a, b, c, d] = v; return std::tie(a, b, c, d); }
 auto fields(Is<ClipPlane> auto& v) { auto& [a, b] = v; return std::tie(a, b); }
 auto fields(Is<Light> auto& v) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = v;
-    return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = v;
+    return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
 }
 auto fields(Is<Blocker> auto& v) { auto& [a, b, c, d, e, f] = v; return std::tie(a, b, c, d, e, f); }
 auto fields(Is<Portal> auto& v) { auto& [a, b, c, d, e, f] = v; return std::tie(a, b, c, d, e, f); }

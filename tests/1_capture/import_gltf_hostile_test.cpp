@@ -87,8 +87,12 @@ TEST(HostileGltf, ReferencesAndModesThatGltfDoesNotHaveAreNamed) {
                 FailsWith("import.gltf.index_range", Field("list", "sampler"), Field("index", 1), Field("place", "texture 0")));
     EXPECT_THAT(with(showing(triangle, R"(,"samplers":[{"wrapT":3}])")),
                 FailsWith("import.gltf.wrap_mode", Field("place", "sampler 0"), Field("member", "wrapT"), Field("mode", 3)));
-    EXPECT_THAT(with(showing(triangle, R"(,"samplers":[{"magFilter":9984}])")),
-                FailsWith("import.gltf.filter", Field("place", "sampler 0"), Field("filter", 9984)));
+    EXPECT_THAT(
+        with(showing(triangle, R"(,"samplers":[{"magFilter":9984}])")),
+        FailsWith("import.gltf.filter", Field("place", "sampler 0"), Field("member", "magFilter"), Field("filter", 9984)));
+    EXPECT_THAT(
+        with(showing(triangle, R"(,"samplers":[{"minFilter":9988}])")),
+        FailsWith("import.gltf.filter", Field("place", "sampler 0"), Field("member", "minFilter"), Field("filter", 9988)));
     EXPECT_THAT(
         with(showing(triangle, R"(,"materials":[{"name":"glass","emissiveTexture":{"index":3}}])")),
         FailsWith("import.gltf.index_range", Field("list", "texture"), Field("index", 3), Field("place", "material 0 'glass'")));
@@ -192,15 +196,57 @@ TEST(HostileGltf, TextThatIsNoJsonIsQuotedWithItsPlace) {
     EXPECT_THAT(refusal(""), FailsWith("import.gltf.json_cut", Field("place", "the file"), Field("bytes", 0)));
 }
 
-TEST(HostileGltf, PicturesAreHeldAgainstTheBudgetBeforeTheyAreDecoded) {
-    std::string png(33, '\0');  // a header that claims 16384 x 16384
+/// A PNG of nothing but a header, as an image of a glTF.
+std::string with_empty_png(std::uint32_t edge) {
+    std::string png(33, '\0');
     png.replace(0, 16, std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16));
-    png.replace(16, 10, std::string("\0\0\x40\0\0\0\x40\0\x08\x06", 10));
-    const std::string text = with_image(fmt::format(R"("uri":"data:image/png;base64,{}")", base64(png)), "");
-    const auto scene = import_text(text, {.memory_budget = 1 << 20});
+    for (std::size_t i = 0; i < 4; ++i) png[16 + i] = png[20 + i] = static_cast<char>(edge >> (24 - 8 * i));
+    png.replace(24, 2, "\x08\x06");
+    return with_image(fmt::format(R"("name":"sky","uri":"data:image/png;base64,{}")", base64(png)), "");
+}
+
+TEST(HostileGltf, PicturesAreHeldAgainstTheBudgetBeforeTheyAreDecoded) {
+    const auto scene = import_text(with_empty_png(8192), {.memory_budget = 1 << 20});
     ASSERT_FALSE(scene);
     EXPECT_EQ(scene.error().fault, Fault::device_lacks);
-    EXPECT_THAT(scene, FailsWith("memory.budget", Field("what", "image 0"), Field("count", 268435456), Field("each_bytes", 24)));
+    EXPECT_THAT(scene, FailsWith("memory.budget", Field("what", "image 0"), Field("count", 67108864), Field("each_bytes", 24)));
+}
+
+TEST(HostileGltf, APictureThatNoCaptureHoldsIsNamedBeforeItIsDecoded) {
+    // With mips 4/3 of 4 * 16384^2 bytes and a few more: 1.43e9. The budget holds less, and is not asked.
+    EXPECT_THAT(imported(with_empty_png(16384), {.memory_budget = 1 << 20}).warnings,
+                Contains("texture 0 is left out: image 0 'sky' has 16384 x 16384 texels, with mips 1431655764 bytes; a capture "
+                         "holds at most 1073741824 bytes for a texture"));
+    EXPECT_THAT(import_text(with_empty_png(14000), {.memory_budget = 1 << 20}),
+                FailsWith("memory.budget", Field("what", "image 0"), Field("count", 14000 * 14000)));
+}
+
+TEST(HostileGltf, AccessorsWithoutAViewHaveNoMoreElementsThanTheFileHasBytes) {
+    const auto zeros = [](std::uint64_t count) {
+        return fmt::format(
+            R"({{"asset":{{"version":"2.0"}},"accessors":[{{"componentType":5126,"type":"VEC3","count":{}}}],{}}})", count,
+            showing(triangle));
+    };
+    EXPECT_THAT(refusal(zeros(300'000'000)), FailsWith("import.gltf.accessor_without_view", Field("elements", 300'000'000),
+                                                       Field("bytes", zeros(300'000'000).size())));
+    EXPECT_EQ(imported(zeros(3)).frame.meshes[0].positions, std::vector<glm::vec3>(3, glm::vec3(0)));
+}
+
+TEST(HostileGltf, IndicesThatRestartAPrimitiveAreRefused) {
+    // As many vertices as make the largest index of the type one of them.
+    const auto restarted = [](int type, const std::string& indices, std::size_t vertices) {
+        Gltf gltf;
+        gltf.accessor(std::string(12 * vertices, '\0'), 5126, "VEC3", vertices);
+        gltf.accessor(indices, type, "SCALAR", 3);
+        return refusal(gltf.text(showing(R"({"indices":1,"attributes":{"POSITION":0}})")));
+    };
+    EXPECT_THAT(restarted(5121, bytes_of<std::uint8_t>({0, 1, 255}), 256),
+                FailsWith("import.gltf.restart_index", Field("element", 2), Field("accessor", 1), Field("index", 255)));
+    EXPECT_THAT(restarted(5123, bytes_of<std::uint16_t>({0, 65535, 1}), 65536),
+                FailsWith("import.gltf.restart_index", Field("element", 1), Field("index", 65535)));
+    EXPECT_THAT(restarted(5125, bytes_of<std::uint32_t>({0, 1, 0xffffffff}), 3),
+                FailsWith("import.gltf.restart_index", Field("element", 2), Field("index", 4294967295)));
+    EXPECT_FALSE(restarted(5123, bytes_of<std::uint16_t>({0, 255, 65534}), 65536)) << "other types' largest";
 }
 
 TEST(HostileGltf, OtherPicturesThanPngAndJpegNeverReachADecoder) {

@@ -220,9 +220,25 @@ TEST(ImportGltf, PunctualLightsKeepColorIntensityAndCone) {
     EXPECT_EQ(frame.lights[1].type, LightType::round_spot);
     EXPECT_EQ(frame.lights[1].direction, glm::vec3(0, 0, -1));
     EXPECT_EQ(frame.lights[1].range, 3);
+    for (const Light& light : frame.lights) EXPECT_EQ(light.window, RangeWindow::quartic) << "as KHR_lights_punctual recommends";
     EXPECT_FLOAT_EQ(frame.lights[1].outer_angle, 0.2f);
     EXPECT_EQ(frame.sun.irradiance, glm::vec3(3));
     EXPECT_EQ(frame.hemisphere.sky, glm::vec3(0));
+}
+
+TEST(ImportGltf, EveryLightThatHasShadowMapsCastsShadows) {
+    const ImportedScene scene = imported(Gltf().with_triangle().text(showing(triangle) + R"(,
+        "extensions":{"KHR_lights_punctual":{"lights":[{"type":"point"},{"type":"spot"},{"type":"directional"},
+        {"type":"directional","name":"moon"}]}},
+        "nodes":[{"mesh":0},{"extensions":{"KHR_lights_punctual":{"light":0}}},{"extensions":{"KHR_lights_punctual":{"light":1}}},
+        {"extensions":{"KHR_lights_punctual":{"light":2}}},{"extensions":{"KHR_lights_punctual":{"light":3}}}])"));
+    const std::vector<Light>& lights = scene.frame.lights;
+    ASSERT_EQ(lights.size(), 3u);
+    EXPECT_TRUE(lights[0].shadow.casts) << "a point light";
+    EXPECT_TRUE(lights[1].shadow.casts) << "a spot";
+    EXPECT_TRUE(scene.frame.sun.shadow.casts);
+    EXPECT_FALSE(lights[2].shadow.casts);
+    EXPECT_THAT(scene.warnings, Contains("light 3 'moon' is another directional light than the sun; it casts no shadow"));
 }
 
 TEST(ImportGltf, LightsBeyondTheSpecificationAreWarnedOf) {
@@ -303,17 +319,38 @@ TEST(ImportGltf, SamplersWrapEachAxisTheirOwnWay) {
                                             AddressMode::mirror_repeat, AddressMode::mirror_clamp, AddressMode::mirror));
 }
 
+TEST(ImportGltf, SamplersChooseTheFilters) {
+    const auto filters = [](const std::string& sampler) {
+        std::string text = with_image(fmt::format(R"("uri":"data:image/png;base64,{}")", tiny_png), "");
+        const std::string wraps = R"({"wrapS":33071,"wrapT":33071})";
+        const Texture texture = imported(text.replace(text.find(wraps), wraps.size(), sampler)).frame.textures[0];
+        return std::tuple(texture.magnify, texture.minify, texture.between_mips);
+    };
+    using enum MipFilter;
+    constexpr TexelFilter smooth = TexelFilter::linear, sharp = TexelFilter::nearest;
+    EXPECT_EQ(filters("{}"), std::tuple(smooth, smooth, linear)) << "glTF leaves it to the reader";
+    EXPECT_EQ(filters(R"({"magFilter":9728})"), std::tuple(sharp, smooth, linear));
+    EXPECT_EQ(filters(R"({"magFilter":9729,"minFilter":9728})"), std::tuple(smooth, sharp, none));
+    EXPECT_EQ(filters(R"({"minFilter":9729})"), std::tuple(smooth, smooth, none));
+    EXPECT_EQ(filters(R"({"minFilter":9984})"), std::tuple(smooth, sharp, nearest));
+    EXPECT_EQ(filters(R"({"minFilter":9985})"), std::tuple(smooth, smooth, nearest));
+    EXPECT_EQ(filters(R"({"minFilter":9986})"), std::tuple(smooth, sharp, linear));
+    EXPECT_EQ(filters(R"({"minFilter":9987})"), std::tuple(smooth, smooth, linear));
+}
+
 TEST(ImportGltf, EqualImagesBecomeOneTexture) {
     const auto textures = [](const std::string& samplers) {
         Gltf gltf = Gltf().with_triangle();
         const std::string image = fmt::format(R"({{"uri":"data:image/png;base64,{}"}})", tiny_png);
-        return imported(gltf.text(showing(triangle, fmt::format(R"(,"images":[{0},{0}],"samplers":[{{}},{{"wrapS":33071}}],
+        return imported(gltf.text(showing(
+                            triangle, fmt::format(R"(,"images":[{0},{0}],"samplers":[{{}},{{"wrapS":33071}},{{"minFilter":9728}}],
             "textures":[{1}],"materials":[{{"emissiveTexture":{{"index":0}}}},{{"emissiveTexture":{{"index":1}}}}])",
-                                                                image, samplers))))
+                                                  image, samplers))))
             .frame.textures.size();
     };
     EXPECT_EQ(textures(R"({"source":0,"sampler":0},{"source":1})"), 1u);
     EXPECT_EQ(textures(R"({"source":0,"sampler":0},{"source":1,"sampler":1})"), 2u) << "they wrap differently";
+    EXPECT_EQ(textures(R"({"source":0,"sampler":0},{"source":1,"sampler":2})"), 2u) << "they are filtered differently";
 }
 
 TEST(ImportGltf, JpegIsRead) {

@@ -22,7 +22,14 @@ T named(const char* name) {
 }
 
 Texture checker() {
-    Texture texture{.name = "checker", .width = 2, .height = 2, .mips = 2, .texels = {}};
+    Texture texture{.name = "checker",
+                    .width = 2,
+                    .height = 2,
+                    .mips = 2,
+                    .magnify = TexelFilter::nearest,
+                    .minify = TexelFilter::nearest,
+                    .between_mips = MipFilter::none,
+                    .texels = {}};
     for (int i = 0; i < 5 * 4; ++i) texture.texels.push_back(static_cast<std::byte>(i * 12));
     return texture;
 }
@@ -74,6 +81,7 @@ Light spot() {
     light.type = LightType::square_spot;
     light.position = {0, 3, 4};
     light.intensity = {40, -1, 3};
+    light.window = RangeWindow::quartic;
     light.texture = 0;
     light.shadow = {.casts = true, .map_size = 256, .bias = .01f, .soft = true};
     light.clip_planes = {{.normal = {0, 1, 0}, .distance = .125}};

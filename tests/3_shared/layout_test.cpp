@@ -112,7 +112,7 @@ std::vector<Record> material_records() {
               {"width", offsetof(T, width)},
               {"height", offsetof(T, height)},
               {"mips", offsetof(T, mips)},
-              {"address", offsetof(T, address)}}}};
+              {"sampling", offsetof(T, sampling)}}}};
 }
 
 std::vector<Record> light_records() {
@@ -141,7 +141,8 @@ std::vector<Record> light_records() {
               {"clips", offsetof(L, clips)},
               {"shadow", offsetof(L, shadow)},
               {"shadow_slots", offsetof(L, shadow_slots)},
-              {"visibility_layer", offsetof(L, visibility_layer)}}},
+              {"visibility_layer", offsetof(L, visibility_layer)},
+              {"window", offsetof(L, window)}}},
             {"ShadowRecord",
              sizeof(S),
              {{"view_to_map", offsetof(S, view_to_map)},

@@ -96,6 +96,37 @@ TEST(Textures, TheLevelOfDetailMixesMipsAndIsClamped) {
     EXPECT_DOUBLE_EQ(trilinear(texture, {0.3, 0.6}, level_of_detail(texture, {0, 0}, {0, 0})).x, 0);
 }
 
+TEST(Textures, TheNearestTexelIsTheOneThatHoldsTheCoordinate) {
+    Texture texture = bytes_texture(4, 1, {0, 51, 102, 153});
+    texture.magnify = TexelFilter::nearest;
+    const auto at = [&](double column, double lod = 0) { return filtered(texture, {column / 4, 0.5}, lod).x * 5; };
+    EXPECT_DOUBLE_EQ(at(1.001), 1);
+    EXPECT_DOUBLE_EQ(at(1.999), 1);
+    EXPECT_DOUBLE_EQ(at(-0.001), 3) << "it repeats";
+    EXPECT_DOUBLE_EQ(at(1.75, 0.1), 1.25) << "minified, which is linear";
+    texture.magnify = TexelFilter::linear;
+    texture.minify = TexelFilter::nearest;
+    EXPECT_DOUBLE_EQ(at(1.75), 1.25) << "magnified";
+    EXPECT_DOUBLE_EQ(at(1.75, 0.1), 1) << "also where there is one mip";
+}
+
+TEST(Textures, MipsAreMixedOrTheNearestOrTheFinest) {
+    Texture texture = three_mips();  // 0, 0.4 and 1
+    const auto at = [&](MipFilter filter, double lod) {
+        texture.between_mips = filter;
+        return filtered(texture, {0.3, 0.6}, lod).x;
+    };
+    for (const TexelFilter minify : {TexelFilter::linear, TexelFilter::nearest}) {
+        texture.minify = minify;
+        EXPECT_DOUBLE_EQ(at(MipFilter::linear, 0.5), 0.2);
+        EXPECT_DOUBLE_EQ(at(MipFilter::linear, 1.25), 0.55);
+        EXPECT_DOUBLE_EQ(at(MipFilter::nearest, 0.5), 0) << "Vulkan: half way the finer one";
+        EXPECT_DOUBLE_EQ(at(MipFilter::nearest, 0.6), 0.4);
+        EXPECT_DOUBLE_EQ(at(MipFilter::nearest, 9), 1);
+        EXPECT_DOUBLE_EQ(at(MipFilter::none, 2), 0);
+    }
+}
+
 TEST(Textures, ASurfaceChoosesItsMipFromTheUvChangePerPixel) {
     // A quad of 16 pixels with 2^n texels per pixel: uv runs 4 * 2^n times over it.
     for (int lod = 0; lod <= 2; ++lod) {

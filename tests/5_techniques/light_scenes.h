@@ -60,6 +60,7 @@ public:
         light.direction = numbers.direction();
         light.axis_u = numbers.across(light.direction);
         light.range = range;
+        light.window = RangeWindow{lights_++ % 2};
         light.intensity = {numbers.from(.2f, 4), numbers.from(.2f, 4), numbers.from(.2f, 4)};
         light.outer_angle = numbers.from(.2f, 1.2f), light.inner_angle = light.outer_angle * numbers.from(0, .9f);
         return light;
@@ -89,6 +90,7 @@ public:
     Numbers numbers;
 
 private:
+    std::uint32_t lights_ = 0;  ///< made so far
     Blocker blocker(const Frame& frame) {
         Blocker wall;
         wall.center = place(frame);

@@ -236,6 +236,24 @@ TEST(Judge, SaysHowManySamplesItLeavesOut) {
 
 /// SwiftShader snaps corners to 1/16 pixel: near the sides of triangles it covers other samples than the model. On a device that
 /// snaps to 1/256 pixel that is a bug.
+TEST(Judge, TakesNanInResultAndTruthForNoAgreement) {
+    Judged judged;
+    ImageSet truth = judged.model;
+    ReferenceImage& color = truth.at("color");
+    color.at(1, 0).y = judged.got().at(1, 0).y = not_a_number;
+    judged.got().at(2, 0).x = 4;  // wrong by 2 in one of three channels of eleven texels
+    const Accuracy some = judged.against_truth(truth);
+    EXPECT_EQ(some.not_numbers, 1u);
+    ASSERT_FALSE(some.technique_errors.empty());
+    EXPECT_DOUBLE_EQ(some.technique_errors.front().value, std::sqrt(4. / 33));
+    color.texels.assign(12, glm::dvec4(not_a_number));
+    judged.got() = color;
+    const Accuracy all = judged.against_truth(truth);
+    EXPECT_EQ(all.not_numbers, 12u);
+    EXPECT_TRUE(all.technique_errors.empty());
+    EXPECT_THAT(all.not_supported, HasSubstr("12 of them are NaN"));
+}
+
 TEST(Judge, ComparesNoSampleWhoseCoverageHangsOnTheStepsOfTheDevice) {
     Judged judged;
     judged.frame = frame_of_cards(std::array{Card{.center = {0, 0, 3}, .half = .91875f}}, 16);

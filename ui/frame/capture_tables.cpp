@@ -180,6 +180,7 @@ CaptureTable textures_of(const Frame& frame) {
                                    {"format", ""},
                                    {"mips", ""},
                                    {"address", "address mode beyond its edges"},
+                                   {"filters", "between texels where magnified and where minified, and between mips"},
                                    {"bytes", "size of all mips"},
                                    {"uses", "uses by materials, emitters and lights"}},
                        .rows = {}};
@@ -191,6 +192,7 @@ CaptureTable textures_of(const Frame& frame) {
                               cell(name(t.format)),
                               cell(t.mips),
                               cell(name(t.address)),
+                              cell(fmt::format("{} {} {}", name(t.magnify), name(t.minify), name(t.between_mips))),
                               byte_cell(texture_bytes(t)),
                               cell(used[i])});
     }
@@ -206,6 +208,7 @@ CaptureTable lights_of(const Frame& frame) {
                     {"position, m", "position in world space; sorts by distance from the eye"},
                     {"intensity", "point and spot: W/sr; directional: irradiance; area: radiance; negative: takes light away"},
                     {"range, m", "nothing is lit beyond it"},
+                    {"window", "how the light ends at its range"},
                     {"angles, deg", "half angles, inner and outer"},
                     {"radius, m", "radius of the source, for soft shadows and highlights"},
                     {"shadow map", "texels along an edge; empty: the light casts no shadows"},
@@ -221,7 +224,7 @@ CaptureTable lights_of(const Frame& frame) {
         CaptureCell angles = degrees(light.outer_angle);
         angles.text = is_spot(light.type) ? fmt::format("{} {}", degrees(light.inner_angle).text, angles.text) : "";
         table.rows.push_back({row_name(i, light.name), cell(name(light.type)), std::move(at), cell(light.intensity),
-                              cell(light.range), std::move(angles), cell(light.source_radius),
+                              cell(light.range), cell(name(light.window)), std::move(angles), cell(light.source_radius),
                               light.shadow.casts ? cell(light.shadow.map_size) : CaptureCell{"", 0},
                               cell(light.clip_planes.size()), cell(light.blockers.size()), cell(light.portals.size()),
                               entry(frame.textures, light.texture)});

@@ -41,7 +41,8 @@ uint covered_by_taps(MaterialRecord material, Footprint f, VertexAlpha v, float 
 float scaled_alpha(MaterialRecord material, uint number, Footprint f, float alpha) {
     const TextureUseRecord use = material.textures[base_color_texture];
     if (!is_used(base_color_texture) || use.texture == no_index) return alpha;
-    const float lod = min(level_of_detail(textures[use.texture], use, f), float(mask_scale_mips - 1u));
+    const TextureRecord t = textures[use.texture];
+    const float lod = min(level_of_detail(t, use, f), float(min(t.mips, mask_scale_mips) - 1u));
     const uint fine = uint(lod), coarse = min(fine + 1u, mask_scale_mips - 1u);
     const float scale = texelFetch(mask_scales, mask_scale_texel(number, fine), 0).r;
     return alpha * mix(scale, texelFetch(mask_scales, mask_scale_texel(number, coarse), 0).r, fract(lod));

@@ -51,7 +51,7 @@ double alpha_beside(const Frame& frame, const Material& material, const MaskPoin
     if (material.base_color_texture.texture == no_index) return own;
     const Texture& texture = frame.textures[material.base_color_texture.texture];
     const glm::dvec2 uv = l.uv + pixels.x * l.uv_x + pixels.y * l.uv_y;
-    return own * trilinear(texture, uv, level_of_detail(texture, width * l.uv_x, width * l.uv_y)).w;
+    return own * filtered(texture, uv, level_of_detail(texture, width * l.uv_x, width * l.uv_y)).w;
 }
 
 class Model {

@@ -57,6 +57,17 @@ TEST(BruteForceLighting, OmniLightsEndAtTheirRange) {
     }
 }
 
+TEST(BruteForceLighting, LightsOfGltfEndAsKhrLightsPunctualRecommends) {
+    Frame frame = one_pixel(1);
+    frame.lights = {lamp(LightType::omni)};
+    frame.lights[0].window = RangeWindow::quartic;
+    for (const glm::dvec2 row : {glm::dvec2(0.25, 0.99609375), glm::dvec2(0.5, 0.9375), glm::dvec2(0.75, 0.68359375),
+                                 glm::dvec2(0.9, 0.3439), glm::dvec2(1, 0)}) {
+        frame.lights[0].range = float(1 / row.x);
+        EXPECT_NEAR(lit(frame, white_wall(1)) * std::numbers::pi, row.y, 1e-6) << "at " << row.x << " of the range";
+    }
+}
+
 TEST(BruteForceLighting, SpotsFadeBetweenTheirCones) {
     Frame frame = one_pixel(1);
     frame.lights = {lamp(LightType::round_spot)};

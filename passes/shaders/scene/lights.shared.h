@@ -30,6 +30,7 @@ struct LightRecord {
     uint shadow;            // first slot in shadows, no_index without
     uint shadow_slots;      // cascades of the sun, 1 for spots, 6 for omni
     uint visibility_layer;  // its first layer (sample 0) in the visibility image, no_index without
+    uint window;            // RangeWindow of capture_format/frame.h
 };
 
 // A rectangle that stops light, in view space: center +- u half_u +- v half_v, v = cross(normal, u).

@@ -61,7 +61,7 @@ struct TextureRecord {
     uint width;
     uint height;
     uint mips;
-    uint address;  // AddressMode along u, and along v two bits higher
+    uint sampling;  // AddressMode along u, and along v two bits higher; filters, as passes/shaders/textures.shared.h has them
 };
 
 #ifdef __cplusplus

@@ -13,10 +13,15 @@ layout(push_constant, scalar) uniform Push { KBufferParams params; };
 layout(set = 0, binding = 1, scalar) buffer Slots { uint64_t slots[]; };
 layout(set = 0, binding = 2, scalar) buffer Counters { KBufferCounters counters; };
 
+// What a neutral fragment takes of the light behind it: alpha, where nothing is transmitted, which has more bits than 1 - t.
+float hidden_share(Fragment fragment) {
+    return fragment.t.r == 1.0 - fragment.alpha ? fragment.alpha : 1.0 - fragment.t.r;
+}
+
 // The key that had no place in the end: this fragment's or one it displaced; empty_slot when there was room.
 uint64_t keep(Fragment fragment) {
     const ivec3 texel = ivec3(gl_FragCoord.xy, gl_SampleID);
-    uint64_t carried = key_of(fragment.z, fragment.alpha, fragment.p + fragment.e);
+    uint64_t carried = key_of(fragment.z, hidden_share(fragment), fragment.p + fragment.e);
     // What the last slot holds only ever comes nearer: behind an old value of it is behind it.
     const bool behind_all = carried >= slots[slot_index(texel, params.layers - 1u)];
     const uint tried = behind_all ? 0u : params.layers;

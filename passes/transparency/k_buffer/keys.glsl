@@ -1,6 +1,6 @@
 // A fragment in 64 bits, so that one atomicMin both orders and stores it:
 //   bits 63..40 depth, the upper 24 of a positive float's 31 bits, rounded: steps of 2^-17 to 2^-16 of it
-//   bits 39..32 coverage in 1/256, of which 129 has no code: 0, .5 and 1 are exact
+//   bits 39..32 what it hides of the light behind it, in 1/256, of which 129 has no code: 0, .5 and 1 are exact
 //   bits 31..0  p + e as RGB9E5: HDR to 65408
 #ifndef PASSES_TRANSPARENCY_K_BUFFER_KEYS_GLSL
 #define PASSES_TRANSPARENCY_K_BUFFER_KEYS_GLSL

@@ -73,8 +73,11 @@ std::optional<std::uint64_t> keep(std::vector<std::uint64_t>& nearest, std::uint
     return fallen;
 }
 
+/// Of the light behind a neutral fragment.
+double hidden_share(const Fragment& f) { return 1 - f.transmittance.x; }
+
 bool is_same(const Fragment& a, const Fragment& b) {
-    return a.depth == b.depth && a.alpha == b.alpha && a.color + a.emission == b.color + b.emission;
+    return a.depth == b.depth && hidden_share(a) == hidden_share(b) && a.color + a.emission == b.color + b.emission;
 }
 
 /// Whether the codes of two fragments that follow each other would be in another order, were floats rounded otherwise. Of equal
@@ -104,7 +107,7 @@ std::uint64_t k_buffer_key(const Fragment& f, double nudge) {
     const double factor = 1 + nudge * 0x1p-23;
     const auto z = static_cast<float>(std::max(f.depth * factor, 0.));
     const std::uint64_t depth = (std::bit_cast<std::uint32_t>(z) + 64) >> 7;
-    const auto of_256 = code_of(std::min(f.alpha * factor, 1.) * 256);
+    const auto of_256 = code_of(std::min(hidden_share(f) * factor, 1.) * 256);
     const std::uint64_t color = rgb9e5((f.color + f.emission) * factor);
     return depth << 40 | (of_256 > 128 ? of_256 - 1 : of_256) << 32 | color;
 }

@@ -29,7 +29,7 @@ vec3 size_share(LightRecord light, vec3 towards) {
 vec3 sent_towards(LightRecord light, vec3 place) {
     const vec3 offset = place - light.position;
     const float squared = dot(offset, offset);
-    if (light_has_area(light.type)) return size_share(light, normalize(offset)) * range_window(sqrt(squared), light.range);
+    if (light_has_area(light.type)) return size_share(light, normalize(offset)) * range_window(light, sqrt(squared));
     MaterialPoint m;
     m.position = place;
     return incident_light(light, m, light_features & ~feature_projected_texture).irradiance * max(squared, nearest_light * nearest_light);

@@ -97,7 +97,7 @@ std::vector<VirtualLight> ReflectiveMaps::side_of(const Light& light, const Ligh
         const glm::dvec3 direction = side.axes.along + side.axes.u * t.x + side.axes.v * t.y;
         const auto surface = met({.origin = light.position, .direction = direction, .begin = nearest_surface});
         if (!surface || !is_reached(light, blockers, *surface)) return std::nullopt;
-        const double stretch = glm::length(direction), window = range_window(surface->distance * stretch, double(light.range));
+        const double stretch = glm::length(direction), window = range_window(light, surface->distance * stretch);
         const double solid_angle = texel_area / (stretch * stretch * stretch);
         return VirtualLight{
             .position = surface->position,

@@ -44,7 +44,7 @@ uvec2 linked_key(uvec2 lattice, const LightGrid& grid, std::span<const uvec2> ba
 
 void add(Digest& digest, const Light& light) {
     digest.add(light.type).add(light.position).add(light.direction).add(light.axis_u).add(light.intensity).add(light.range);
-    digest.add(light.source_radius).add(light.half_extent).add(light.inner_angle).add(light.outer_angle);
+    digest.add(light.window).add(light.source_radius).add(light.half_extent).add(light.inner_angle).add(light.outer_angle);
     for (const ClipPlane& plane : light.clip_planes) digest.add(plane.normal).add(plane.distance);
     digest.add_all(light.blockers).add_all(light.portals);
 }
