@@ -241,7 +241,7 @@ Frame cornell_box(std::uint32_t frame, const ScenarioOptions& options) {
                                     .center = {2.78, 2.744, 2.796},
                                     .half_extent = glm::vec3(3.15f),
                                     .cells = glm::uvec3(18),
-                                    .iterations = 16}};
+                                    .iterations = 36}};
     return std::move(builder.frame);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/light.h"
@@ -12,6 +13,9 @@ namespace {
 // docs/algorithms/lighting.md 5.8: meters within which a point is on a plane, and where in the world it belongs to then.
 constexpr double on_plane = 1e-3;
 constexpr glm::dvec3 side_of_plane(1, 0.37, 0.14);
+// Meters along the normal of a surface at which its ways begin: more than the 15 mm behind a blocker where direct light ends
+// (docs/algorithms/lighting.md 2.2), so that no face is lit on one side and bounces light on the other.
+constexpr double before_surface = 0.02;
 
 /// The portal projected onto the blocker along its normal: the rectangle over the projected u side with the projected height.
 Hole hole_in(const Barrier& barrier, const Portal& portal) {
@@ -30,26 +34,36 @@ bool is_within(const Hole& hole, const glm::dvec2& place) {
     return glm::all(glm::lessThan(glm::abs(turned), hole.half_extent));
 }
 
+Barrier closed(const Blocker& blocker) {
+    Barrier barrier;
+    barrier.center = blocker.center;
+    barrier.u = glm::normalize(glm::dvec3(blocker.u));
+    const glm::dvec3 recorded(blocker.v);
+    barrier.v = glm::normalize(recorded - barrier.u * glm::dot(barrier.u, recorded));
+    barrier.normal = glm::cross(barrier.u, barrier.v);
+    barrier.half_extent = {blocker.half_u, blocker.half_v};
+    return barrier;
+}
+
 }  // namespace
 
-std::vector<Barrier> barriers(const Frame& frame) {
-    std::vector<Barrier> result;
-    for (std::uint32_t i = 0; i < frame.blockers.size(); ++i) {
-        const Blocker& blocker = frame.blockers[i];
-        if (blocker.half_u <= 0 || blocker.half_v <= 0) continue;
-        Barrier barrier;
-        barrier.center = blocker.center;
-        barrier.u = glm::normalize(glm::dvec3(blocker.u));
-        const glm::dvec3 recorded(blocker.v);
-        barrier.v = glm::normalize(recorded - barrier.u * glm::dot(barrier.u, recorded));
-        barrier.normal = glm::cross(barrier.u, barrier.v);
-        barrier.half_extent = {blocker.half_u, blocker.half_v};
-        for (const Portal& portal : frame.portals)
-            if (portal.blocker == i) barrier.holes.push_back(hole_in(barrier, portal));
-        result.push_back(barrier);
-    }
+Barrier barrier(const Frame& frame, std::uint32_t blocker, std::span<const std::uint32_t> portals) {
+    Barrier result = closed(frame.blockers[blocker]);
+    for (const std::uint32_t portal : portals)
+        if (frame.portals[portal].blocker == blocker) result.holes.push_back(hole_in(result, frame.portals[portal]));
     return result;
 }
+
+std::vector<Barrier> barriers(const Frame& frame) {
+    std::vector<std::uint32_t> portals(frame.portals.size());
+    std::iota(portals.begin(), portals.end(), 0u);
+    std::vector<Barrier> result;
+    for (std::uint32_t i = 0; i < frame.blockers.size(); ++i)
+        if (frame.blockers[i].half_u > 0 && frame.blockers[i].half_v > 0) result.push_back(barrier(frame, i, portals));
+    return result;
+}
+
+glm::dvec3 way_begin(const glm::dvec3& position, const glm::dvec3& normal) { return position + before_surface * normal; }
 
 Meeting meets(const Barrier& barrier, const Segment& segment, double slack) {
     const double from = glm::dot(barrier.normal, segment.from - barrier.center);

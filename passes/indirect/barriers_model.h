@@ -4,6 +4,7 @@
 // 5.8). Every blocker stops light from both sides.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,12 @@ struct Barrier {
 
 /// All blockers of a frame that have an area, each with its own portals.
 std::vector<Barrier> barriers(const Frame&);
+/// A blocker with an area; of its portals those among `portals`.
+Barrier barrier(const Frame&, std::uint32_t blocker, std::span<const std::uint32_t> portals);
+
+/// Where ways of bounced light begin at a surface: 2 cm along its normal. The side of this place is the surface's side of every
+/// blocker, whether a light injects there, a surfel reflects or a sample reads cells (docs/algorithms/lighting.md 5.8).
+glm::dvec3 way_begin(const glm::dvec3& position, const glm::dvec3& normal);
 
 struct Segment {
     glm::dvec3 from{0}, to{0};

@@ -1,6 +1,6 @@
 // What a place takes of the cells of a grid around it, without those that a blocker hides from it (docs/algorithms/lighting.md 5.8).
 // A place on a surface is read half a cell before it; one without a normal, (0, 0, 0), where it is, from all directions alike.
-// The shader that includes this says where cells lie, light_of(), and where lists of blockers do, listed_blockers().
+// The shader that includes this says where cells lie, light_of() and facing_of(), and where lists of blockers do, listed_blockers().
 #ifndef PASSES_INDIRECT_READ_GRID_GLSL
 #define PASSES_INDIRECT_READ_GRID_GLSL
 #include "passes/indirect/irradiance.glsl"
@@ -11,6 +11,7 @@ const float least_share = 0.02;
 
 // A cell by its number; the first cells of a grid may not be the first of all.
 LightCell light_of(uint number);
+LightCell facing_of(uint number);
 
 LightCell weighted(LightCell sum, LightCell light, float weight) {
     return LightCell(sum.red + weight * light.red, sum.green + weight * light.green, sum.blue + weight * light.blue);
@@ -18,6 +19,7 @@ LightCell weighted(LightCell sum, LightCell light, float weight) {
 
 struct SeenLight {
     LightCell light;
+    LightCell facing;  // by the way that sources face; not set where the grid does not know it
     uint hidden;  // cells, of eight
     uint tests;   // of a blocker against the way to a cell
     uint near;    // blockers that the ways may meet
@@ -28,12 +30,22 @@ struct NearList {
     uint list, count;
 };
 
-// Of a grid whose first cell has this number, some cells before the surface. Beyond the border cells hold nothing.
-SeenLight seen_light_at(GridPlace grid, uint first_cell, LitPlace lit, float cells, NearList near) {
-    const vec3 between = place_before(grid, lit, cells) - 0.5;
+// What is read of a grid: the numbers of its first cell and of the first that says which way sources face, or nowhere; how many cells before
+// the surface.
+struct GridReading {
+    uint first_cell, first_facing;
+    float cells;
+    NearList near;
+};
+
+// Beyond the border cells hold nothing.
+SeenLight seen_light_at(GridPlace grid, LitPlace lit, GridReading reading) {
+    const NearList near = reading.near;
+    const vec3 between = place_before(grid, lit, reading.cells) - 0.5;
     const ivec3 first = ivec3(floor(between));
     const vec3 share = between - vec3(first);
-    SeenLight seen = SeenLight(LightCell(vec4(0.0), vec4(0.0), vec4(0.0)), 0u, 0u, near.count);
+    const LightCell dark = LightCell(vec4(0.0), vec4(0.0), vec4(0.0));
+    SeenLight seen = SeenLight(dark, dark, 0u, 0u, near.count);
     uint hidden = 0u;
     if (near.count > 0u) {
         const vec3 corner = in_view(grid.origin + (vec3(first) + 1.0) * grid.cell);
@@ -47,12 +59,23 @@ SeenLight seen_light_at(GridPlace grid, uint first_cell, LitPlace lit, float cel
         const float weight = w.x * w.y * w.z;
         if ((hidden >> i & 1u) != 0u) continue;
         all += weight;
-        if (in_grid(grid, cell)) seen.light = weighted(seen.light, light_of(first_cell + cell_index(grid, cell)), weight);
+        if (!in_grid(grid, cell)) continue;
+        const uint index = cell_index(grid, cell);
+        seen.light = weighted(seen.light, light_of(reading.first_cell + index), weight);
+        if (reading.first_facing != nowhere) seen.facing = weighted(seen.facing, facing_of(reading.first_facing + index), weight);
     }
     if (seen.hidden == 0u) return seen;
     const float scale = all < least_share ? 0.0 : 1.0 / all;
-    seen.light = LightCell(seen.light.red * scale, seen.light.green * scale, seen.light.blue * scale);
+    seen.light = weighted(dark, seen.light, scale);
+    seen.facing = weighted(dark, seen.facing, scale);
     return seen;
+}
+
+// Irradiance over pi of what was read.
+vec3 received_light(GridPlace grid, SeenLight seen, uint first_facing, vec3 n) {
+    const vec3 received = irradiance_over_pi(grid, seen.light, n);
+    if (first_facing == nowhere) return received;
+    return received * share_by_facing(seen.light, seen.facing, n);
 }
 
 #endif

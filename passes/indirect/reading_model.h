@@ -17,8 +17,12 @@ struct LitGrid {
     Grid grid;
     Field light;
     std::span<const Barrier> tap_barriers = {};  ///< that hide taps from a surface; none: all eight taps count
+    /// The mean of the three channels, each source weighted by (1 + n.x) / 2, (1 + n.y) / 2, (1 + n.z) / 2 of its normal; empty
+    /// where sources count alike, whichever way they face.
+    Field facing = {};
     std::uint32_t irradiance = irradiance_face;
-    double damping = 0;  ///< exponent; 0: off
+    double reading = 0.5;  ///< cells before a surface at which it is read
+    double damping = 0;    ///< exponent; 0: off
 };
 
 /// World space. A normal of 0 stands for all directions alike.
@@ -26,11 +30,15 @@ struct Receiver {
     glm::dvec3 position{0}, normal{0, 1, 0};
 };
 
-/// One channel's coefficients half a cell above a receiver, of the eight cells around that place. Cells outside hold 0.
+/// One channel's coefficients where the grid is read above a receiver, of the eight cells around that place. Cells outside hold
+/// 0.
 glm::dvec4 sampled(const LitGrid&, std::size_t channel, const Receiver&);
 /// Share of one channel's light that damping leaves: ((1 + cosine) / 2)^k, of the angle in four dimensions between the
 /// coefficients half a cell before the surface and these less those half a cell behind it; 1 where either is 0.
 double kept_share(const glm::dvec4& before, const glm::dvec4& behind, double k);
+/// Factor on irradiance that counts light of a source of normal m for 1 - (m . n) of it, 0 to 2: surfaces that face the same way
+/// do not see each other.
+double share_by_facing(const LitGrid&, const Receiver&);
 /// W/m^2 of one grid alone.
 glm::dvec3 irradiance(const LitGrid&, const Receiver&);
 /// Share of a grid at a position: 0 outside, rising to 1 over its border.

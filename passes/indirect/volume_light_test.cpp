@@ -26,12 +26,14 @@ struct Uniform {
 
 ImageSet image_of(const Uniform& wanted) {
     const std::uint32_t count = wanted.cells * wanted.cells * wanted.cells;
-    ReferenceImage image(volume_texels_per_row, (3 * (count + 1) + volume_texels_per_row - 1) / volume_texels_per_row);
+    ReferenceImage image(volume_texels_per_row,
+                         (3 * (count + records_per_grid) + volume_texels_per_row - 1) / volume_texels_per_row);
     const double low = -wanted.cell * wanted.cells / 2;
     image.texels[0] = {low, low, low, wanted.cell};
     image.texels[1] = glm::dvec4(glm::dvec3(wanted.cells), wanted.border);
     image.texels[2] = {0, wanted.rule, 1, 0};
-    for (std::uint32_t i = 3; i < 3 * (count + 1); ++i) image.texels[i] = wanted.light;
+    image.texels[3] = {.5, 0, 0, 0};  // read half a cell before surfaces, whichever way sources face
+    for (std::uint32_t i = 3 * records_per_grid; i < 3 * (count + records_per_grid); ++i) image.texels[i] = wanted.light;
     return {{"volume_light", image}};
 }
 

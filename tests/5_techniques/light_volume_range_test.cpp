@@ -69,9 +69,9 @@ TEST_P(LightVolumeRange, IsAsPublished) {
     const RangeRow& row = GetParam();
     const Frame frame = squares_before(row);
     const auto session = session_of({frame});
-    Request request{
-        .choices = chosen({"indirect/lpv"}, {"injection=0", "propagation=clamped", fmt::format("iterations={}", row.iterations),
-                                             fmt::format("irradiance={}", row.irradiance)})};
+    Request request{.choices = chosen({"indirect/lpv"}, {"injection=0", "propagation=clamped", "lobes=face", "self_light=kept",
+                                                         fmt::format("iterations={}", row.iterations),
+                                                         fmt::format("irradiance={}", row.irradiance)})};
     request.outputs = {"indirect", "surface_normal"};
     const auto run = must(session->run(request));
     request.outputs = {"indirect/lpv:energy"};

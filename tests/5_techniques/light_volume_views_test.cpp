@@ -138,7 +138,8 @@ TEST(LightVolumeViews, OfOneInjectedLobeShowItsCellAlone) {
 TEST(LightVolumeViews, OfCellsAfterOneStepShowWhatTheNeighborsHaveTakenBesides) {
     const Frame frame = patch_from_the_front();
     const auto session = session_of({frame});
-    const auto run = must(session->run(request_of_view("cells", {"injection=0", "iterations=1", "propagation=linear"})));
+    const auto run =
+        must(session->run(request_of_view("cells", {"injection=0", "iterations=1", "propagation=linear", "lobes=face"})));
     const double flux = injected_flux(run);
     std::vector<LitCell> cells{{.light = {.2820948, 0, 0, .3257350}},
                                {{0, 0, 1}, {.13301934, 0, 0, .03115748}},

@@ -278,6 +278,17 @@ TEST(LightVolumes, SayWhichPortalsAreTooSmallForTheirCells) {
     EXPECT_THAT(notes(2), testing::IsEmpty()) << "closed";
 }
 
+TEST(LightVolumes, SayThatAVolumeIsNoLargerThanItsRoom) {
+    Frame recorded = scenario_frames("cornell_box").front(), tight = recorded;
+    recorded.view.width = recorded.view.height = tight.view.width = tight.view.height = 16;
+    tight.light_volumes[0].center = {2.78, 2.744, 2.796}, tight.light_volumes[0].half_extent = {2.78f, 2.744f, 2.796f};
+    tight.light_volumes[0].cells = glm::uvec3(16);
+    const auto session = session_of({recorded, tight});
+    EXPECT_THAT(must(session->run(indirect_of(0))).notes, testing::IsEmpty());
+    EXPECT_THAT(must(session->run(indirect_of(1))).notes,
+                testing::ElementsAre(testing::HasSubstr("within half a cell of its border (-x, +x, -y, +y, -z, +z)")));
+}
+
 /// How two pictures of halves differ where a pixel of the one is that of the other, or its mirror image.
 struct HalfSteps {
     std::size_t lit = 0, equal = 0, black_in_one = 0;
@@ -338,10 +349,11 @@ TEST(LightVolumes, TakeNothingOfALightThatIsNoNumber) {
     for (std::size_t i = 0; i < bad.size(); ++i) {
         const HostImage with = must(session->run(indirect_of(i + 1, sets))).images.at("indirect");
         EXPECT_EQ(texel_that_is_no_number(with), std::nullopt) << bad[i].name;
-        // Its finite numbers may change the scale of the sums, and so their last bit.
+        // Its finite numbers may change the scale of the sums, and so their last bit, which the share of light that faces a
+        // surface magnifies.
         const HalfSteps steps = compare(with, without, false);
         EXPECT_EQ(steps.black_in_one, 0u) << bad[i].name;
-        EXPECT_LT(steps.worst, 2e-3) << bad[i].name;
+        EXPECT_LT(steps.worst, 8e-3) << bad[i].name;
     }
 }
 
@@ -381,7 +393,7 @@ TEST(LightVolumes, TurnAndMirrorWithTheScene) {
         // Sums of turned coordinates have another order: of a few pixels the last bit. A mirror image also turns the texels of
         // the map.
         EXPECT_LT(steps.worst, is_mirrored ? .02 : 0x1p-10) << i;
-        EXPECT_LE(steps.lit - steps.equal, is_mirrored ? steps.lit : 10u) << i;
+        EXPECT_LE(steps.lit - steps.equal, is_mirrored ? steps.lit : 50u) << i;
     }
 }
 
@@ -401,7 +413,7 @@ void expect_a_dark_store_room(std::uint32_t frames, std::uint32_t begin) {
         EXPECT_TRUE(is_black(run.images.at("indirect"))) << "frame " << begin + i;
         const auto injected = std::ranges::find(run.counters, "injected", &CounterRecord::name);
         ASSERT_NE(injected, run.counters.end());
-        EXPECT_GT(injected->value, 500u);
+        EXPECT_GT(injected->value, 400u);
     }
 }
 

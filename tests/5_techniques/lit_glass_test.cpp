@@ -126,14 +126,17 @@ void expect_alike(Session& session, std::size_t glass, std::size_t opaque, const
     Request request = request_of(opaque, {"indirect/lpv"}, {rule});
     request.outputs = {"indirect"};
     const auto run = must(session.run(request));
+    int lit = 0;
     for (const glm::dvec3& pane : {lit_pane, dark_pane})
         for (const glm::dvec3& aside : {glm::dvec3(0), glm::dvec3(.3, .3, 0), glm::dvec3(-.3, .2, 0), glm::dvec3(.2, -.3, 0)}) {
             const glm::uvec2 p = pixel_of(frame, pane + aside);
             const glm::dvec3 wanted = glm::dvec3(paint) * glm::dvec3(texel(run.images.at("indirect"), p.x, p.y));
             const glm::dvec3 got = seen.at(pane + aside);
-            EXPECT_GT(wanted.x, 1e-4);
-            for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], wanted[c], (grids * 0x1p-10 + 1e-3) * wanted[c]) << rule << ", " << c;
+            lit += wanted.x > 1e-4;
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(got[c], wanted[c], (grids * 0x1p-10 + 1e-3) * wanted[c] + 1e-8) << rule << ", " << c;
         }
+    EXPECT_GT(lit, 5) << rule << ": of eight places; a pane takes nothing of sources that face as it does";
 }
 
 TEST(LitGlass, GetsWhatAnOpaqueSurfaceInItsPlaceGets) {
@@ -233,14 +236,14 @@ Frame rooms_in_cascades(std::uint32_t cells, std::uint32_t cascades) {
 
 // Nothing is allocated before a frame is refused.
 TEST(LitGlass, IsRefusedWhereTheDeviceCannotHoldItsVolumes) {
-    const auto session = session_of({rooms_in_cascades(200, 1), rooms_in_cascades(256, 8)});
+    const auto session = session_of({rooms_in_cascades(200, 1), rooms_in_cascades(256, 4)});
     if (session->device().max_buffer_bytes > 256u << 20 || session->device().max_image_extent > 65'536)
         GTEST_SKIP() << "this device holds 8 million cells";
     const auto run = [&](std::size_t frame) { return session->run(request_of(frame, {"indirect/lpv"})); };
-    EXPECT_THAT(run(0), FailsWith("device.buffer_too_large")) << "8 million cells of 60 bytes";
+    EXPECT_THAT(run(0), FailsWith("device.buffer_too_large")) << "8 million cells of 120 bytes";
     EXPECT_THAT(run(1),
                 FailsWith("device.image_too_large", Field("image", "volume_light"), Field("width", 4096), Field("height", 98305)))
-        << "134 million cells";
+        << "67 million cells, each with two records";
 }
 
 class LitGlassBy : public testing::TestWithParam<const Technique*> {};

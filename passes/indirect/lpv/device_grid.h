@@ -16,7 +16,7 @@
 
 namespace strata::indirect {
 
-inline constexpr std::uint64_t half_cell_bytes = 3 * 4 * 2;
+inline constexpr std::uint64_t channel_bytes = 4 * sizeof(float), half_channel_bytes = 4 * 2;
 
 struct DeviceGrid {
     LightGrid grid;
@@ -25,25 +25,31 @@ struct DeviceGrid {
     bool is_fuzzy = false;   ///< surfaces do, from the second step on
     double fixed_one = 1;    ///< 1 in the fixed point of its sums: a power of two
     std::size_t number = 0;  ///< in the order of light_grids()
-    Buffer sums;             ///< what is injected: LightCell in fixed point
+    Buffer sums;             ///< what is injected, in fixed point
     Buffer links;            ///< occlusion/links.comp; none without has_links
     Buffer later_links;      ///< occlusion/fuzzy.comp, of all steps but the first; none without is_fuzzy
-    Buffer total;            ///< LightCell, or halves of it (stored_cells.glsl): all that cells ever held
+    Buffer total;            ///< all that cells ever held (stored_cells.glsl)
     Buffer macro_cells;      ///< apply/macro_cells.comp; none: taps ask all blockers
     // Of a grid that is kept over frames (kept/); none of them otherwise.
     Buffer gates;                           ///< how many groups its steps have in this frame: three words a gate of lpv.shared.h
     Buffer starting;                        ///< bits of the grids that are lit anew in this frame, by starting_bit()
-    Buffer even, odd;                       ///< StepCell, or halves: light of steps, where a later frame goes on with it
+    Buffer even, odd;                       ///< light of steps (stored_cells.glsl), where a later frame goes on with it
     std::size_t bounce = 1;                 ///< of the light in it
     Buffer scale;                           ///< a float: its fixed_one, where that is known on the device alone
     std::uint32_t storage = storage_float;  ///< of the cells of total, even and odd
+    std::uint32_t channels = color_channels;
 
     std::uint32_t cells() const { return grid.cells.x * grid.cells.y * grid.cells.z; }
-    /// Of `total`, and of what a step holds.
+    std::uint64_t all_channels() const { return std::uint64_t{cells()} * channels; }
+    /// Of `sums`, of `total`, and of what a step holds.
+    std::uint64_t sums_bytes() const { return all_channels() * channel_bytes; }
     std::uint64_t total_bytes() const {
-        return storage == storage_half ? unit_words * sizeof(uint) + cells() * half_cell_bytes : cells() * sizeof(LightCell);
+        return storage == storage_half ? unit_words * sizeof(uint) + all_channels() * half_channel_bytes
+                                       : all_channels() * channel_bytes;
     }
-    std::uint64_t step_bytes() const { return cells() * (storage == storage_half ? half_cell_bytes : sizeof(StepCell)); }
+    std::uint64_t step_bytes() const {
+        return all_channels() * (storage == storage_half ? half_channel_bytes : channel_bytes + sizeof(float));
+    }
     std::string name(const char* what) const {
         return fmt::format("{} {}{}", what, number, bounce > 1 ? fmt::format(", bounce {}", bounce) : "");
     }

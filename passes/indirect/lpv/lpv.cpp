@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -15,6 +16,7 @@
 #include "passes/indirect/lpv/apply/apply.h"
 #include "passes/indirect/lpv/occlusion/small_portals.h"
 #include "passes/indirect/lpv/ratios.h"
+#include "passes/indirect/lpv/tight_volumes.h"
 #include "passes/indirect/lpv/views/cell_views.h"
 #include "passes/indirect/lpv/views/energy_tables.h"
 #include "passes/indirect/lpv/views/surface_views.h"
@@ -43,6 +45,8 @@ constexpr auto resolutions = choice_names({{resolution_full, "full"}, {resolutio
 constexpr std::string_view switches[] = {"off", "on"};
 constexpr auto relights = choice_names({{relight_always, "always"}, {relight_changed, "changed"}});
 constexpr auto cell_scales = choice_names({{cells_half, "1/2"}, {cells_recorded, "1"}, {cells_double, "2"}});
+constexpr auto self_lights = choice_names({{self_kept, "kept"}, {self_uninjected, "uninjected"}, {self_facing, "by_facing"}});
+constexpr auto lobe_rules = choice_names({{lobes_face, "face"}, {lobes_flow, "flow"}});
 constexpr auto storages = choice_names({{storage_float, "float"}, {storage_half, "half"}});
 constexpr auto tap_rules = choice_names({{taps_all, "all"}, {taps_visible, "visible"}});
 
@@ -87,7 +91,10 @@ std::string_view approximates(const Settings& settings) {
 
 std::vector<std::string> notes(const FrameImages& frame, const Settings& settings) {
     const auto params = settings.as<LpvParams>();
-    return notes_on_small_portals(*frame.recorded, light_grids(*frame.recorded, cell_scale(params)), params.occlusion);
+    const std::vector<LightGrid> grids = light_grids(*frame.recorded, cell_scale(params));
+    std::vector<std::string> all = notes_on_tight_volumes(*frame.facts, grids);
+    for (std::string& note : notes_on_small_portals(*frame.recorded, grids, params.occlusion)) all.push_back(std::move(note));
+    return all;
 }
 
 }  // namespace
@@ -112,7 +119,7 @@ Technique lpv() {
              param<&LpvParams::propagation>(
                  {.name = "propagation",
                   .high = 2,
-                  .fallback = propagation_energy_true,
+                  .fallback = propagation_linear,
                   .help =
                       "negative radiance at a cell face; linear: kept; clamped: set to 0; energy_true: set to 0, the rest scaled "
                       "to conserve energy",
@@ -148,7 +155,8 @@ Technique lpv() {
                   .low = 16,
                   .high = 512,
                   .fallback = 128,
-                  .help = "resolution of reflective shadow maps (RSMs), texels per side; larger: more VPLs",
+                  .help = "resolution of reflective shadow maps (RSMs), texels per side, for parallel light three times as much; "
+                          "larger: more VPLs",
                   .scale = Scale::logarithmic}),
              param<&LpvParams::injection>({.name = "injection",
                                            .high = 1,
@@ -205,7 +213,25 @@ Technique lpv() {
                                               .fallback = storage_float,
                                               .help = "format of light in cells; float: 32 bits; half: 16 bits, scaled by the "
                                                       "brightest cell: less than half the memory",
-                                              .choices = storages})},
+                                              .choices = storages}),
+             param<&LpvParams::self_light>(
+                 {.name = "self_light",
+                  .high = 2,
+                  .fallback = self_facing,
+                  .help = "light that returns to surfaces facing like its source; uninjected: without injected cells; "
+                          "by_facing: left out by normals, twice the memory",
+                  .choices = self_lights}),
+             param<&LpvParams::reading>(
+                 {.name = "reading",
+                  .high = 2,
+                  .fallback = .5,
+                  .help = "distance from a surface along its normal at which cells are read, cells; 1.5: past its own cell"}),
+             param<&LpvParams::lobes>({.name = "lobes",
+                                       .high = 1,
+                                       .fallback = lobes_flow,
+                                       .help = "direction of light that a cell face takes; face: its normal, as published; flow: "
+                                               "away from the sending cell, reaches farther",
+                                       .choices = lobe_rules})},
         .variants = {"iterations=8",
                      "iterations=32",
                      "iterations=64",
@@ -228,7 +254,12 @@ Technique lpv() {
                      "damping=2",
                      "bounces=2",
                      "relight=changed",
-                     "cell_storage=half"},
+                     "cell_storage=half",
+                     "self_light=kept",
+                     "self_light=uninjected",
+                     "reading=1.5",
+                     "lobes=face",
+                     "lobes=face self_light=kept"},
         .counters =
             {counter<&LpvCounters::injected>(
                  {.name = "injected", .help = "virtual point lights (VPLs) injected, summed over all grids"}),

@@ -21,6 +21,17 @@ const uint occlusion_both = 4u;
 const uint taps_all = 0u;
 const uint taps_visible = 1u;  // those that no blocker hides from the surface
 
+// Light that comes back to surfaces that face like its source.
+const uint self_kept = 0u;
+const uint self_uninjected = 1u;  // cells do not show what is injected into them
+const uint self_facing = 2u;      // cells know which way sources face (channels.glsl)
+const uint color_channels = 3u;
+const uint facing_channels = 6u;
+
+// Direction of the light that a face of a cell takes.
+const uint lobes_face = 0u;  // across the face
+const uint lobes_flow = 1u;  // away from the middle of the cell that sends it
+
 const uint resolution_full = 0u;
 const uint resolution_half = 1u;  // cells are read once per 2 x 2 pixels
 const uint relight_always = 0u;   // in every frame
@@ -38,6 +49,11 @@ struct MapPush {
     mat4 to_clip;  // of view space
 };
 
+// Texels by which those of a map of parallel light lie beside borders of cells, along the two axes after the one that the map
+// faces: scenes like to have their edges there, and rounding would decide what a texel sees.
+const float map_shift_u = 0.2155f;
+const float map_shift_v = 0.167f;
+
 // A light's maps and the grid that they are injected into.
 struct InjectPush {
     GridPlace grid;
@@ -52,8 +68,11 @@ struct InjectPush {
 // which their middles lie beside those of cells' quarters, where walls like to begin and end.
 const uint surfels_a_side = 4u;
 const uint surfel_margin = 1u;
-const float surfel_shift_u = 0.213f;
-const float surfel_shift_v = 0.139f;  // another one, because squares' diagonals lie where the two are equal
+// A device moves vertices by up to 1/512 of a texel: in cells of .4, .5 or 1 m no line through texels' middles lies as near to
+// whole centimeters, where scenes have their edges. (With .139 two lines of four lay 1/1000 of a texel beside them: rows of
+// texels of whole walls were covered on the device alone, and light differed by 4e-3.)
+const float surfel_shift_u = 0.2155f;
+const float surfel_shift_v = 0.167f;  // another one, because squares' diagonals lie where the two are equal
 
 struct SurfelPush {
     GridPlace grid;
@@ -96,13 +115,6 @@ struct TileDispatch {
 };
 const uint tile_dispatch_width = 4096u;  // x may be 65535 at most, and 8K has 518400 tiles
 
-// The same of a step of propagation, with what each channel's clamped faces are multiplied by, so that the cell sends what it
-// holds.
-struct StepCell {
-    LightCell light;
-    vec3 share;
-};
-
 // With storage_half a unit is the power of two at which the brightest l0 that is injected into a grid lies between 2^7 and 2^8 in
 // what is summed over steps, and between 2^12 and 2^13 in what one step holds: sums grow with the steps, steps do not. The sums'
 // unit stands in the first words of their buffer.
@@ -120,6 +132,7 @@ struct HandOnPush {
     uint count;
     uint first_cell;  // the record of its first cell
     uint macro_row;   // 0: none
+    float reading;    // cells before a surface
 };
 struct HandOnMacroPush {
     GridPlace grid;

@@ -8,6 +8,7 @@
 
 #include "capture_format/frame.h"
 #include "passes/indirect/lpv/injection/emission_model.h"
+#include "passes/indirect/lpv/injection/injection_model.h"
 #include "passes/indirect/lpv/injection/reflective_map_model.h"
 #include "passes/indirect/lpv/lpv.shared.h"
 #include "passes/indirect/lpv/model.h"
@@ -117,7 +118,8 @@ TEST(ReflectiveMaps, OfALampHaveTheSolidAngleOfTheirFace) {
     EXPECT_EQ(face[0].normal, dvec3(0, 0, 1)) << "towards the light";
 }
 
-// T5.2: the box's diagonal is 16 m, so that the map is 16 m x 16 m.
+// T5.2, by the area of a floor: n^2 + 1 texels in a cell, with the largest n for which the map covers six by four cells, six
+// deep, that the sun crosses at slopes of 2 / 9 and 3 / 9.
 TEST(ReflectiveMaps, OfTheSunHaveTheAreaOfTheirTexels) {
     Frame frame;
     add_square(frame, {0, -1, 0}, {40, 0, 0}, {0, 0, 40}, vec3(0.5f));
@@ -127,20 +129,22 @@ TEST(ReflectiveMaps, OfTheSunHaveTheAreaOfTheirTexels) {
     sun.direction = frame.sun.direction;
     sun.intensity = frame.sun.irradiance;
     const Grid grid{.cells = uvec3(2, 4, 4), .cell_size = 16. / 6, .origin = {-4, -3, -5}};
-    const std::vector<VirtualLight> reflected = ReflectiveMaps(frame, 256).of_directional(sun, grid);
-    ASSERT_EQ(reflected.size(), 65536u);
+    const double texel = grid.cell_size / std::hypot(33, 1);
+    const double cosine = -double(sun.direction.y) / glm::length(dvec3(sun.direction)), sent = 5 * cosine * texel * texel;
+    const std::vector<VirtualLight> reflected = ReflectiveMaps(frame, 85).of_directional(sun, grid);
+    ASSERT_EQ(reflected.size(), 255u * 255);
     for (const VirtualLight& light : reflected) {
-        ASSERT_NEAR(light.flux.x, 0.01953125, 1e-9);
+        ASSERT_NEAR(light.flux.x, sent, 1e-9);
         ASSERT_NEAR(light.position.y, -1, 1e-12);
     }
-    EXPECT_NEAR(flux_of(reflected).x, 1280, 1e-6);
+    EXPECT_NEAR(flux_of(reflected).x, 255 * 255 * sent, 1e-6);
     EXPECT_EQ(flux_of(reflected).y, 0);
     EXPECT_EQ(flux_of(reflected).z, 0) << "darks reflect nothing";
     const Grid whole{.cells = uvec3(64), .cell_size = 1, .origin = dvec3(-32)};
     const Field field = injected(whole, reflected, {});
     double held = 0;
     for (const dvec4& cell : field[0]) held += cell.x;
-    EXPECT_NEAR(held, 361.0813335, 2e-6);
+    EXPECT_NEAR(held, 255 * 255 * sent * 0.2820947918, 1e-6);
 }
 
 TEST(ReflectiveMaps, SnapToTheWorldSoThatTexelsStayWhereTheyAre) {
@@ -148,16 +152,20 @@ TEST(ReflectiveMaps, SnapToTheWorldSoThatTexelsStayWhereTheyAre) {
     add_square(frame, {0, 0, 0}, {40, 0, 0}, {0, 0, 40});
     Light sun = lamp(LightType::directional);
     sun.direction = {0, -1, 0};
-    // The diagonal is 6 m: 24 texels of 0.25 m. A grid that moves by 0.3 m moves its texels by 0.25 m.
-    const ReflectiveMaps maps(frame, 24);
+    // With a cell around it the grid is 6 m by 4 m: 3^2 + 1 texels in a square meter, turned by 1 in 3, 22 by 18 of them.
+    const ReflectiveMaps maps(frame, 8);
     const auto here = maps.of_directional(sun, {.cells = uvec3(2, 4, 4), .cell_size = 1, .origin = dvec3(0.1)});
-    const auto there = maps.of_directional(sun, {.cells = uvec3(2, 4, 4), .cell_size = 1, .origin = dvec3(0.4, 0.1, 0.1)});
+    const auto there = maps.of_directional(sun, {.cells = uvec3(2, 4, 4), .cell_size = 1, .origin = dvec3(0.9, 0.1, 0.6)});
     ASSERT_EQ(here.size(), 576u);
     ASSERT_EQ(there.size(), 576u);
-    // The middle, 3 m to the map's edge, is at x = 1.1 and 1.4: edges at -1.9 and -1.6 go down to -2 and -1.75.
-    EXPECT_NEAR(here[0].position.x, -2 + 0.125, 1e-12);
-    EXPECT_NEAR(there[0].position.x, -1.75 + 0.125, 1e-12);
-    EXPECT_NEAR(here[0].position.z, there[0].position.z, 1e-12);
+    const dvec3 moved = there[0].position - here[0].position;
+    for (const double texels : {3 * moved.z + moved.x, 3 * moved.x - moved.z}) EXPECT_NEAR(texels, std::round(texels), 1e-9);
+    EXPECT_GT(glm::length(moved), .1);
+    // Cells have the same texels wherever a whole number of cells takes them.
+    for (const dvec3& cells : {dvec3(1, 0, 0), dvec3(0, 0, 1), dvec3(-3, 7, 2)}) {
+        const auto far = maps.of_directional(sun, {.cells = uvec3(2, 4, 4), .cell_size = 1, .origin = cells + .1});
+        EXPECT_NEAR(glm::distance(far[0].position, here[0].position + dvec3(cells.x, 0, cells.z)), 0, 1e-9);
+    }
 }
 
 TEST(ReflectiveMaps, ReflectWhatTheLightSeesFirst) {
@@ -274,6 +282,35 @@ TEST(LightVolumes, GiveFourTimesTheIntensityOverTheCellsArea) {
     EXPECT_NEAR(irradiance(lit, {{0, 1.75, 0}, {0, 1, 0}}).x, 4 * 3 * 0.75 / 0.25 / 2, 1e-12);
 }
 
+/// Light of l0 in every cell, of sources with a normal.
+LitGrid lit_by_sources_facing(const dvec3& normal) {
+    LitGrid lit{.grid = {.cells = uvec3(4), .cell_size = 1, .origin = dvec3(-2)}, .light = {}, .irradiance = irradiance_cell};
+    const std::vector<VirtualLight> source{{.normal = normal, .flux = dvec3(3, 2, 1)}};
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        const auto c = glm::length_t(channel);
+        lit.light[channel].assign(64, dvec4(source[0].flux[c], 0, 0, 0));
+        lit.facing[channel].assign(64, dvec4(by_facing(source)[0].flux[c], 0, 0, 0));
+    }
+    return lit;
+}
+
+TEST(LightVolumes, GiveSurfacesThatFaceAlikeNothingOfEachOthersLight) {
+    const dvec3 up(0, 1, 0), right(1, 0, 0), oblique = glm::normalize(dvec3(1, 2, -2));
+    const auto share = [](const dvec3& source, const dvec3& surface) {
+        return share_by_facing(lit_by_sources_facing(source), {.position = dvec3(0), .normal = surface});
+    };
+    for (const dvec3& n : {up, -up, right, oblique}) {
+        EXPECT_NEAR(share(n, n), 0, 1e-12);
+        EXPECT_NEAR(share(n, -n), 2, 1e-12) << "face to face";
+    }
+    EXPECT_NEAR(share(up, right), 1, 1e-12);
+    EXPECT_NEAR(share(up, oblique), 1 - 2. / 3, 1e-12);
+    EXPECT_NEAR(share(up, dvec3(0)), 1, 1e-12) << "a particle";
+    LitGrid alike = lit_by_sources_facing(up);
+    alike.facing = {};
+    EXPECT_EQ(share_by_facing(alike, {.normal = up}), 1);
+}
+
 TEST(LightVolumes, FadeIntoTheNextOverTheirBorder) {
     const auto even = [](double l0, double size, double fade) {
         LitGrid lit{.grid = {.cells = uvec3(8), .cell_size = size, .origin = dvec3(-4 * size), .fade_cells = fade}, .light = {}};
@@ -301,7 +338,8 @@ struct LitRoom {
                      .taps = taps_visible,
                      .map_size = 32,
                      .injection = 0.5f,
-                     .cell_scale = cells_recorded};
+                     .cell_scale = cells_recorded,
+                     .reading = 0.5f};
 
     LitRoom() {
         add_square(frame, {4, 0, 0}, {0, 4, 0}, {0, 0, 4});

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include <tbb/parallel_for.h>
 
@@ -80,23 +82,41 @@ struct Way {
     PropagationRule propagation;
     std::uint32_t iterations = 0;
     std::uint32_t storage = storage_float;
+    bool shows_injected = true;
+    bool knows_facing = false;
 };
 
-/// All that cells ever hold of the light that is injected.
-Field brought(const Way& way, Field light) {
-    const HalfCells halves(light);
+/// All that cells ever hold of the light that is injected; `halves` as which they store it.
+Field brought(const Way& way, Field light, const HalfCells& halves) {
     for (Channel& channel : light) {
+        const Channel shown = way.shows_injected ? channel : Channel(channel.size(), glm::dvec4(0));
         if (way.storage == storage_half) {
-            channel = propagated_in_halves({way.first, way.later}, halves, channel, way.propagation, way.iterations);
+            channel = propagated_in_halves({way.first, way.later}, halves, {.injected = channel, .shown = shown}, way.propagation,
+                                           way.iterations);
             continue;
         }
-        if (way.iterations == 0) break;
-        // The sum over all steps is what is there at first and what goes on from the first step.
+        if (way.iterations == 0) {
+            channel = shown;
+            continue;
+        }
+        // The sum over all steps is what is shown at first and what goes on from the first step.
         const Channel next =
             propagated(way.later, next_step(way.first, channel, way.propagation), way.propagation, way.iterations - 1);
-        std::ranges::transform(channel, next, channel.begin(), std::plus{});
+        std::ranges::transform(shown, next, channel.begin(), std::plus{});
     }
     return light;
+}
+
+/// Light, and the same by the way that its sources face.
+struct Brought {
+    Field light, facing;
+};
+Brought brought(const Grid& grid, const Way& way, const std::vector<VirtualLight>& sources) {
+    const Field direct = injected(grid, sources, way.injection);
+    const HalfCells halves(direct);
+    Brought result{.light = brought(way, direct, halves), .facing = {}};
+    if (way.knows_facing) result.facing = brought(way, injected(grid, by_facing(sources), way.injection), halves);
+    return result;
 }
 
 Field sum_of(Field light, const Field& more) {
@@ -111,6 +131,7 @@ LitGrid lit(const Frame& frame, const Grid& grid, const Sources& sources, std::s
     LitGrid result{.grid = grid};
     result.irradiance = params.irradiance;
     result.damping = double(params.damping);
+    result.reading = double(params.reading);
     if (params.taps == taps_visible) result.tap_barriers = in_the_way;
     const bool asks_surfels = is_fuzzy(grid, params) || params.bounces > 1;
     const std::vector<Surfel> pieces = asks_surfels ? surfels(frame, grid) : std::vector<Surfel>();
@@ -118,15 +139,23 @@ LitGrid lit(const Frame& frame, const Grid& grid, const Sources& sources, std::s
     const Way way{.first = by_blockers,
                   .later = is_fuzzy(grid, params) ? with_surfels(grid, by_blockers, pieces) : by_blockers,
                   .injection = {.bias = double(params.injection), .barriers = in_the_way},
-                  .propagation = {.propagation = params.propagation, .faces = params.faces},
+                  .propagation = {.propagation = params.propagation, .faces = params.faces, .lobes = params.lobes},
                   .iterations = params.iterations == 0 ? grid.iterations : params.iterations,
-                  .storage = params.cell_storage};
-    const Field direct = injected(grid, sources.around(grid), way.injection);
-    result.light = brought(way, direct);
+                  .storage = params.cell_storage,
+                  .shows_injected = params.self_light != self_uninjected,
+                  .knows_facing = params.self_light == self_facing};
+    const std::vector<VirtualLight> reflecting = sources.around(grid);
+    Brought first = brought(grid, way, reflecting);
+    result.light = std::move(first.light);
+    result.facing = std::move(first.facing);
     if (params.bounces < 2) return result;
-    result.light = sum_of(result.light, brought(way, injected(grid, reflected(pieces, result), way.injection)));
-    if (way.storage == storage_half)
-        for (Channel& channel : result.light) channel = HalfCells(direct).summed(channel);
+    const Brought second = brought(grid, way, reflected(pieces, result));
+    result.light = sum_of(result.light, second.light);
+    if (way.knows_facing) result.facing = sum_of(result.facing, second.facing);
+    if (way.storage != storage_half) return result;
+    const HalfCells halves(injected(grid, reflecting, way.injection));
+    for (Field* const field : {&result.light, &result.facing})
+        for (Channel& channel : *field) channel = halves.summed(channel);
     return result;
 }
 

@@ -14,4 +14,7 @@ vec4 total_channel(uint cell, uint channel) {
 // W.
 LightCell total_light(uint cell) { return LightCell(total_channel(cell, 0u), total_channel(cell, 1u), total_channel(cell, 2u)); }
 
+// By the way that sources face.
+LightCell total_facing(uint cell) { return LightCell(total_channel(cell, 3u), total_channel(cell, 4u), total_channel(cell, 5u)); }
+
 #endif

@@ -3,7 +3,7 @@
 // no subnormals, which a device may flush, and no infinity. A cell's step holds what the cell sends, so that it needs no factor beside it.
 #ifndef PASSES_INDIRECT_LPV_STORED_CELLS_GLSL
 #define PASSES_INDIRECT_LPV_STORED_CELLS_GLSL
-#include "passes/indirect/lpv/lpv.shared.h"
+#include "passes/indirect/lpv/channels.glsl"
 #include "passes/shaders/nearest_half.glsl"
 
 layout(constant_id = 96) const uint cell_storage = storage_float;
@@ -12,16 +12,17 @@ bool has_halves() { return cell_storage == storage_half; }
 
 // The first word of a cell's channel in the sum over steps.
 uint total_word(uint cell, uint channel) {
-    if (has_halves()) return unit_words + 6u * cell + 2u * channel;
-    return 12u * cell + 4u * channel;
+    if (has_halves()) return unit_words + 2u * (channels * cell + channel);
+    return 4u * (channels * cell + channel);
 }
 
-// The same of what a step holds; with floats the shares of the three channels follow.
+// The same of what a step holds; with floats the shares of a cell's channels follow: what each channel's clamped faces are multiplied by, so
+// that the cell sends what it holds.
 uint step_word(uint cell, uint channel) {
-    if (has_halves()) return 6u * cell + 2u * channel;
-    return 15u * cell + 4u * channel;
+    if (has_halves()) return 2u * (channels * cell + channel);
+    return 5u * channels * cell + 4u * channel;
 }
-uint share_word(uint cell, uint channel) { return 15u * cell + 12u + channel; }
+uint share_word(uint cell, uint channel) { return 5u * channels * cell + 4u * channels + channel; }
 
 float power_of_two(int exponent) { return uintBitsToFloat(uint(127 + exponent) << 23); }
 

@@ -36,6 +36,7 @@ void bounce_again(Graph& graph, const FrameImages& frame, const LpvParams& param
         .loads("More", again.total)
         .updates("Total", grid.total)
         .fixes("cell_storage", grid.storage)
+        .fixes("channels", grid.channels)
         .push(grid.place)
         .over(grid.threads());
 }
@@ -73,8 +74,9 @@ std::vector<DeviceGrid> make_grids(Graph& graph, const FrameImages& frame, const
                      .is_fuzzy = occlusion == occlusion_fuzzy || occlusion == occlusion_both,
                      .fixed_one = fixed_one(*frame.facts, grid),
                      .number = made.size(),
-                     .storage = params.cell_storage};
-        g.sums = graph.create(g.name("injected light of grid"), std::uint64_t{g.cells()} * sizeof(LightCell));
+                     .storage = params.cell_storage,
+                     .channels = params.self_light == self_facing ? facing_channels : color_channels};
+        g.sums = graph.create(g.name("injected light of grid"), g.sums_bytes());
         made.push_back(g);
     }
     return made;

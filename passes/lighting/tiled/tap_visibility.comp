@@ -16,9 +16,9 @@ shared uint is_near;
 
 bool reads_near_blockers(LitPlace lit) {
     for (uint i = 0u; i < light_grids; ++i) {
-        const vec4 corner = record_texel(i, 0u), size = record_texel(i, 1u);
+        const vec4 corner = grid_texel(i, 0u), size = grid_texel(i, 1u);
         const GridPlace grid = GridPlace(corner.xyz, corner.w, uvec3(size.xyz));
-        if (depth_inside(grid, lit.place) > 0.0 && near_list(grid, lit, record_texel(i, 2u)).count > 0u) return true;
+        if (depth_inside(grid, lit.place) > 0.0 && near_list(grid, lit, i).count > 0u) return true;
     }
     return false;
 }

@@ -59,6 +59,7 @@ void find_macro_cells(Graph& graph, const FrameImages& frame, const LpvParams& p
     graph.compute("indirect/lpv/apply/macro_cells.comp")
         .stores("MacroCells", grid.macro_cells)
         .fixes("blocker_count", static_cast<std::uint32_t>(frame.recorded->blockers.size()))
+        .fixes("reading", params.reading)
         .push(grid.place)
         .over({cells.x, cells.y, cells.z * words});
 }
@@ -100,6 +101,7 @@ TileLists classify_tiles(Graph& graph, const FrameImages& frame, const LpvParams
         .fixes("has_macro_cells", 1u)
         .fixes("blocker_count", static_cast<std::uint32_t>(frame.recorded->blockers.size()))
         .fixes("damping", params.damping)
+        .fixes("reading", params.reading)
         .push(apply_push(grid))
         .over(frame.extent);
     return lists;
@@ -164,9 +166,12 @@ struct VolumeLayout {
     std::uint32_t rows = 0;
 };
 
+/// Of a grid's cells: one of their light, one of the way that its sources face.
+std::uint32_t cell_records(const DeviceGrid& grid) { return grid.cells() * (grid.channels / color_channels); }
+
 VolumeLayout volume_layout(const FrameImages& frame, std::span<const DeviceGrid> grids) {
-    std::uint64_t records = grids.size();
-    for (const DeviceGrid& grid : grids) records += grid.cells();
+    std::uint64_t records = records_per_grid * grids.size();
+    for (const DeviceGrid& grid : grids) records += cell_records(grid);
     VolumeLayout layout{.rows = rows_of(texels_per_record * records)};
     for (const DeviceGrid& grid : grids) {
         layout.macro_rows.push_back(grid.macro_cells ? layout.rows : 0);
@@ -196,7 +201,7 @@ void hand_on(Graph& graph, FrameImages& frame, const LpvParams& params, std::spa
     frame.volume_light =
         graph.create("volume_light", {.extent = {volume_texels_per_row, layout.rows}, .format = Format::rgba32f});
     graph.clear(frame.volume_light, {});
-    std::uint32_t first_cell = count;
+    std::uint32_t first_cell = records_per_grid * count;
     for (std::uint32_t i = 0; i < count; ++i) {
         const DeviceGrid& grid = grids[i];
         if (layout.macro_rows[i] > 0) hand_on_macro_cells(graph, frame, grid, layout.macro_rows[i]);
@@ -204,6 +209,7 @@ void hand_on(Graph& graph, FrameImages& frame, const LpvParams& params, std::spa
             .loads("Total", grid.total)
             .updates("volume_light", frame.volume_light)
             .fixes("cell_storage", grid.storage)
+            .fixes("channels", grid.channels)
             .push(HandOnPush{.grid = grid.place,
                              .border = border(grid.grid),
                              .asks_taps = asks_taps(params, grid),
@@ -211,9 +217,10 @@ void hand_on(Graph& graph, FrameImages& frame, const LpvParams& params, std::spa
                              .number = i,
                              .count = count,
                              .first_cell = first_cell,
-                             .macro_row = layout.macro_rows[i]})
+                             .macro_row = layout.macro_rows[i],
+                             .reading = params.reading})
             .over(grid.threads());
-        first_cell += grid.cells();
+        first_cell += cell_records(grid);
     }
 }
 

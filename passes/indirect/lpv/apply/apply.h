@@ -24,6 +24,8 @@ Builder& bind_taps(Builder&& builder, const FrameImages& frame, const LpvParams&
         .loads("MacroCells", grid.macro_cells ? grid.macro_cells : grid.total)
         .fixes("has_macro_cells", grid.macro_cells ? 1u : 0u)
         .fixes("cell_storage", grid.storage)
+        .fixes("channels", grid.channels)
+        .fixes("reading", params.reading)
         .fixes("asks_taps", asks_taps(params, grid));
 }
 

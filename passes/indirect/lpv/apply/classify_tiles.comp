@@ -19,7 +19,7 @@ uint what_is_at(ivec3 at) {
     if (!s.exists) return 0u;
     const LitPlace lit = lit_place(s, uvec2(at.xy));
     if (depth_inside(push.grid, lit.place) <= 0.0) return 1u;
-    uint near = count_near(list_before(push.grid, lit, 0.5));
+    uint near = count_near(list_before(push.grid, lit, reading));
     if (damping > 0.0) near += count_near(list_before(push.grid, lit, -0.5));
     return near > 0u ? 3u : 1u;
 }

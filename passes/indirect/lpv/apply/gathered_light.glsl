@@ -1,4 +1,4 @@
-// Irradiance over pi that a grid gives at a surface: half a cell before it, from the eight cells around, without those that a blocker hides
+// Irradiance over pi that a grid gives at a surface: some way before it, from the eight cells around, without those that a blocker hides
 // from it (docs/algorithms/lighting.md 5.8).
 #ifndef PASSES_INDIRECT_LPV_GATHERED_LIGHT_GLSL
 #define PASSES_INDIRECT_LPV_GATHERED_LIGHT_GLSL
@@ -22,13 +22,12 @@ vec3 kept_of(LightCell light, GridPlace grid, LitPlace lit) {
 
 vec3 gathered_light(GridPlace grid, LitPlace lit) {
     const SeenLight seen = seen_light(grid, lit);
-    const LightCell light = seen.light;
     if (seen.hidden > 0u) atomicAdd(counters.hidden_taps, seen.hidden);
     if (seen.near > 0u) atomicAdd(counters.samples_near_blockers, 1u);
     if (seen.near > 0u) atomicAdd(counters.blocker_tests, seen.tests);
-    const vec3 received = irradiance_over_pi(grid, light, lit.normal);
+    const vec3 received = received_light(grid, seen, first_facing(), lit.normal);
     if (damping == 0.0) return received;
-    return received * kept_of(light, grid, lit);
+    return received * kept_of(seen.light, grid, lit);
 }
 
 #endif

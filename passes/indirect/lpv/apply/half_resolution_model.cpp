@@ -8,8 +8,8 @@
 namespace strata::indirect::in_double {
 namespace {
 
-// Meters off both surfaces between which barriers are looked for, and the least sum of weights.
-constexpr double way_start = 0.02, least_fit = 0.25;
+// The least sum of weights.
+constexpr double least_fit = 0.25;
 
 glm::uvec2 blocks_of(const VisibleSurfaces& seen) { return {(seen.width + 1) / 2, (seen.height + 1) / 2}; }
 
@@ -40,7 +40,7 @@ double fit(const LitGrid& lit, const Receiver& at, const Receiver& other, const 
                                         2 * cosine - 1};
     double product = 1;
     for (const double factor : factors) product *= std::max(0.0, factor);
-    const Segment way{at.position + way_start * at.normal, other.position + way_start * other.normal};
+    const Segment way{way_begin(at.position, at.normal), way_begin(other.position, other.normal)};
     return product > 0 && is_blocked(lit.tap_barriers, way, slack_of(size)) ? 0 : product;
 }
 

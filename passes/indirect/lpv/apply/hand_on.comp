@@ -1,4 +1,4 @@
-// A grid after propagation, for stages after this one: its record and those of its cells in the image volume_light.
+// A grid after propagation, for stages after this one: its records and those of its cells in the image volume_light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/indirect/grid.glsl"
@@ -24,7 +24,12 @@ void main() {
     const uint index = cell_index(push.grid, cell);
     const LightCell light = total_light(index);
     store(push.first_cell + index, light.red, light.green, light.blue);
+    if (knows_facing()) {
+        const LightCell facing = total_facing(index);
+        store(push.first_cell + push.grid.cells.x * push.grid.cells.y * push.grid.cells.z + index, facing.red, facing.green, facing.blue);
+    }
     if (index > 0u) return;
-    store(push.number, vec4(push.grid.origin, push.grid.cell), vec4(push.grid.cells, push.border),
+    store(records_per_grid * push.number, vec4(push.grid.origin, push.grid.cell), vec4(push.grid.cells, push.border),
           vec4(push.asks_taps, push.irradiance, push.count, push.macro_row));
+    store(records_per_grid * push.number + 1u, vec4(push.reading, knows_facing() ? 1.0 : 0.0, 0.0, 0.0), vec4(0.0), vec4(0.0));
 }

@@ -6,6 +6,8 @@
 
 layout(constant_id = 5) const uint has_macro_cells = 0u;  // 0: all blockers of the frame are near
 
+layout(constant_id = 98) const float reading = 0.5;    // cells before a surface at which cells are read
+
 layout(set = 0, binding = 7, scalar) readonly buffer MacroCells { uint macro_cells[]; };
 
 uint listed_blockers(uint list, uint word) { return macro_cells[list * blocker_words + word]; }

@@ -8,6 +8,8 @@
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 
+layout(constant_id = 98) const float reading = 0.5;  // cells before a surface at which cells are read
+
 layout(push_constant, scalar) uniform Push { GridPlace grid; };
 layout(set = 0, binding = 7, scalar) writeonly buffer MacroCells { uint macro_cells[]; };
 layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
@@ -18,13 +20,15 @@ struct Box {
     mat3 axes;
 };
 
-// A place q half a cell before a surface selects its macro-cell. Cells around q are less than a cell from it and ways to them begin half
-// a cell from it, but for 0.02 m (passes/indirect/near_blockers.glsl); a sixteenth is for rounding. At the grid's border q may be half a cell beyond it.
+// A place q before a surface selects its macro-cell. Cells around q are less than a cell from it. Ways to them begin `reading` cells from it,
+// but for 0.02 m (passes/indirect/near_blockers.glsl), and ways to another pixel's surface end half a cell farther; a sixteenth is for rounding.
+// At the grid's border q may be `reading` cells beyond it.
 Box box_of(uvec3 macro, uvec3 extent) {
-    const vec3 low = vec3(macro_side * macro) - vec3(equal(macro, uvec3(0u)));
-    const vec3 high = vec3(min(macro_side * (macro + 1u), grid.cells)) + vec3(equal(macro + 1u, extent));
+    const float reach = max(1.0, reading + 0.5);
+    const vec3 low = vec3(macro_side * macro) - reach * vec3(equal(macro, uvec3(0u)));
+    const vec3 high = vec3(min(macro_side * (macro + 1u), grid.cells)) + reach * vec3(equal(macro + 1u, extent));
     const mat3 axes = mat3(in_view(vec3(1.0, 0.0, 0.0)), in_view(vec3(0.0, 1.0, 0.0)), in_view(vec3(0.0, 0.0, 1.0)));
-    return Box(in_view(grid.origin + 0.5 * (low + high) * grid.cell), (0.5 * (high - low) + 17.0 / 16.0) * grid.cell + tap_start, axes);
+    return Box(in_view(grid.origin + 0.5 * (low + high) * grid.cell), (0.5 * (high - low) + reach + 1.0 / 16.0) * grid.cell + way_offset, axes);
 }
 
 bool are_apart(BlockerRecord blocker, Box box, vec3 axis) {

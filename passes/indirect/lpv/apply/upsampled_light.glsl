@@ -16,10 +16,10 @@ float fit(GridPlace grid, LitPlace lit, LitPlace other, vec2 pixels) {
     return tent.x * tent.y * nearness * max(0.0, 2.0 * dot(lit.normal, other.normal) - 1.0);
 }
 
-// Both ends are within reach of the macro-cell of this surface: they are at most half a cell apart.
+// Both ends are within reach of the macro-cell of this surface (macro_cells.comp): they are at most half a cell apart.
 bool are_parted(GridPlace grid, LitPlace lit, LitPlace other) {
     if (asks_taps == 0u) return false;
-    const uint list = list_before(grid, lit, 0.5);
+    const uint list = list_before(grid, lit, reading);
     if (count_near(list) == 0u) return false;
     uint tests = 0u;
     const bool stopped = is_stopped_near(list, way_start(lit), way_start(other), tests);

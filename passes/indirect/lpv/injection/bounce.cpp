@@ -15,9 +15,10 @@ DeviceGrid reflected(Graph& graph, const FrameImages& frame, const LpvParams& pa
         .loads("Total", lit.total)
         .stores("Scale", next.scale)
         .fixes("cell_storage", lit.storage)
+        .fixes("channels", lit.channels)
         .push(lit.place)
         .groups({1, 1, 1});
-    next.sums = graph.create(next.name("injected light of grid"), std::uint64_t{lit.cells()} * sizeof(LightCell));
+    next.sums = graph.create(next.name("injected light of grid"), lit.sums_bytes());
     graph.clear(next.sums, 0);
     draw_surfels(graph, frame, lit, "indirect/lpv/injection/reflect", [&](DrawStep& draw) {
         bind_taps(draw, frame, params, lit)

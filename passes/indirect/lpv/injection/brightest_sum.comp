@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/indirect/grid.glsl"
+#include "passes/indirect/lpv/channels.glsl"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 
@@ -13,6 +14,7 @@ void main() {
     const ivec3 at = ivec3(gl_GlobalInvocationID);
     if (!in_grid(grid, at)) return;
     const uint cell = cell_index(grid, at);
-    const int most = max(sums[3u * cell].x, max(sums[3u * cell + 1u].x, sums[3u * cell + 2u].x));
+    const uint first = channels * cell;  // what is known of sources' facing is no brighter
+    const int most = max(sums[first].x, max(sums[first + 1u].x, sums[first + 2u].x));
     if (most > 0) atomicMax(brightest, uint(most));
 }

@@ -52,13 +52,18 @@ void inject(vec3 surface, vec3 n, vec3 flux) {
     add_lobe(cell_index(push.grid, cell), flux, n, push.fixed_one);
 }
 
+// What a light reaches is on the light's side of its blockers by the rule of ways, too: else cells behind a blocker would take light.
+bool arrives(LightRecord light, vec3 place, vec3 n) {
+    if (!blockers_pass(light, off_surface(place, n), low_bits(light.blockers), low_bits(light.portals))) return false;
+    return guards == 0u || !is_behind_blocker(light, way_start(LitPlace(view.to_world * place, view.to_world * n)));
+}
+
 // W of a texel's surface; nothing where it is not finite.
 vec3 reflected_flux(LightRecord light, vec3 place, vec3 n, ivec3 at) {
     const vec3 flux = max(texelFetch(albedo, at, 0).rgb * arriving(light, place, uvec2(at.xy)), 0.0);
     const bool is_finite = dot(n, n) > 0.5 && all(lessThan(abs(place), vec3(1e18))) && all(lessThan(flux, vec3(1e30)));
     if (!is_finite || flux == vec3(0.0) || is_clipped(light, place)) return vec3(0.0);
-    const bool arrives = blockers_pass(light, off_surface(place, n), low_bits(light.blockers), low_bits(light.portals));
-    return arrives ? flux : vec3(0.0);
+    return arrives(light, place, n) ? flux : vec3(0.0);
 }
 
 void main() {

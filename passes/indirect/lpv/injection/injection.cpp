@@ -17,7 +17,7 @@ namespace {
 void inject(Graph& graph, GatedCasters& casters, const LpvParams& params, std::uint32_t light, const LightMaps& maps,
             std::span<DeviceGrid* const> grids) {
     const FrameImages& frame = casters.frame();
-    const MapImages images = draw_maps(graph, casters.seen_by(grids), maps, params.map_size);
+    const MapImages images = draw_maps(graph, casters.seen_by(grids), maps);
     for (DeviceGrid* const grid : grids) {
         const auto views = static_cast<std::uint32_t>(maps.views.size());
         gated(fix_blockers(graph.compute("indirect/lpv/injection/inject.comp"), frame)
@@ -26,6 +26,7 @@ void inject(Graph& graph, GatedCasters& casters, const LpvParams& params, std::u
                   .samples("albedo", images.albedo)
                   .updates("Sums", grid->sums)
                   .fixes("guards", grid->has_links ? 1u : 0u)
+                  .fixes("channels", grid->channels)
                   .fixes("light_features", frame.facts->light_features())
                   .push(InjectPush{.grid = grid->place,
                                    .light = light,
@@ -33,14 +34,17 @@ void inject(Graph& graph, GatedCasters& casters, const LpvParams& params, std::u
                                    .texel_area = maps.texel_area,
                                    .fixed_one = float(grid->fixed_one),
                                    .bias = params.injection}),
-              *grid, views == 1 ? gate_one_map : gate_six_maps, {params.map_size, params.map_size, views});
+              *grid, views == 1 ? gate_one_map : gate_six_maps, {maps.size, maps.size, views});
     }
 }
 
 void clear_sums(Graph& graph, DeviceGrid& grid) {
     if (!grid.gates) return graph.clear(grid.sums, 0);
-    gated(graph.compute("indirect/lpv/kept/clear_sums.comp").stores("Sums", grid.sums).push(grid.place), grid, gate_cells,
-          grid.threads());
+    gated(graph.compute("indirect/lpv/kept/clear_sums.comp")
+              .stores("Sums", grid.sums)
+              .fixes("channels", grid.channels)
+              .push(grid.place),
+          grid, gate_cells, grid.threads());
 }
 
 }  // namespace
@@ -62,7 +66,8 @@ void inject_lights(Graph& graph, const FrameImages& frame, const LpvParams& para
         for (DeviceGrid& grid : grids)
             if (injects(lights[i], grid.grid)) reached.push_back(&grid);
         if (has_range(lights[i].type)) {
-            if (!reached.empty()) inject(graph, casters, params, i, maps_around(*frame.recorded, lights[i]), reached);
+            if (!reached.empty())
+                inject(graph, casters, params, i, maps_around(*frame.recorded, lights[i], params.map_size), reached);
             continue;
         }
         for (DeviceGrid* const grid : reached)

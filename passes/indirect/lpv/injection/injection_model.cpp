@@ -7,9 +7,6 @@
 namespace strata::indirect::in_double {
 namespace {
 
-// Meters that the segment to a cell's middle starts before the surface (docs/algorithms/lighting.md 5.3).
-constexpr double before_surface = 0.01;
-
 // Meters by which lights are moved on along their normals, so that a wall whose lights fall onto a border between cells gives
 // them all to the cells beyond it (docs/algorithms/lighting.md 5.3).
 constexpr double across_border = 1e-4;
@@ -30,11 +27,12 @@ std::array<glm::ivec3, 6> neighbors_by_distance(const glm::ivec3& cell, const gl
 }  // namespace
 
 std::optional<glm::uvec3> receiving_cell(const Grid& grid, const VirtualLight& light, const InjectionRule& rule) {
+    if (light.is_behind_blocker && !rule.barriers.empty()) return std::nullopt;
     const double size = grid.cell_size;
     const glm::dvec3 biased = light.position + light.normal * (rule.bias * size);
     const glm::ivec3 first = cell_at(grid, biased + light.normal * across_border);
     if (!is_inside(grid, first)) return std::nullopt;
-    const glm::dvec3 start = light.position + light.normal * before_surface;
+    const glm::dvec3 start = way_begin(light.position, light.normal);
     const auto takes = [&](const glm::ivec3& cell) {
         return is_inside(grid, cell) && !is_blocked(rule.barriers, {start, cell_middle(grid, cell)}, slack_of(size));
     };
@@ -44,6 +42,11 @@ std::optional<glm::uvec3> receiving_cell(const Grid& grid, const VirtualLight& l
     for (const glm::ivec3& cell : neighbors_by_distance(first, in_cells(grid, biased) - glm::dvec3(first) - 0.5))
         if (takes(cell)) return glm::uvec3(cell);
     return std::nullopt;
+}
+
+std::vector<VirtualLight> by_facing(std::vector<VirtualLight> lights) {
+    for (VirtualLight& light : lights) light.flux = (light.flux.x + light.flux.y + light.flux.z) / 3 * (1.0 + light.normal) / 2.0;
+    return lights;
 }
 
 Field injected(const Grid& grid, std::span<const VirtualLight> lights, const InjectionRule& rule) {

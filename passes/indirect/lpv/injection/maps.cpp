@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "capture_format/frame/frame.h"
 #include "capture_format/light_types.h"
@@ -44,15 +45,16 @@ double widest_side(const Light& light) {
 
 /// Steradians that a light shines into; square meters of parallel light over the grid.
 double extent(const Light& light, const LightGrid& grid) {
-    if (!has_range(light.type)) return std::pow(2 * radius(grid), 2);
+    // Surfaces that light cells at the border may lie a cell outside of the grid.
+    if (!has_range(light.type)) return std::pow(2 * (radius(grid) + 2 * grid.cell), 2);
     const double round = facts_of(light.type).cone == LightCone::round ? 1 - std::cos(double(light.outer_angle)) : 2;
     return 2 * std::numbers::pi * round;
 }
 
 }  // namespace
 
-LightMaps maps_around(const Frame& frame, const Light& light) {
-    LightMaps maps;
+LightMaps maps_around(const Frame& frame, const Light& light, std::uint32_t map_size) {
+    LightMaps maps{.views = {}, .size = map_size};
     const glm::dvec3 position = in_view_space(frame.view, light.position);
     const auto row = [&](const glm::dvec3& axis) { return glm::dvec4(axis, -glm::dot(axis, position)); };
     constexpr double near = .05;  // meters; depth is reversed and infinite, so that it costs nothing to be near
@@ -64,27 +66,85 @@ LightMaps maps_around(const Frame& frame, const Light& light) {
     return maps;
 }
 
-LightMaps maps_over(const SceneFacts& facts, const Light& light, const LightGrid& grid, std::uint32_t size) {
+namespace {
+
+/// The box of a grid and a cell around it.
+struct MappedBox {
+    glm::dvec3 low, high;
+    double cell;
+
+    explicit MappedBox(const LightGrid& grid)
+        : low(grid.origin - grid.cell), high(grid.origin + grid.cell * (glm::dvec3(grid.cells) + 1.)), cell(grid.cell) {}
+};
+
+/// Texels of parallel light on the lattice of a grid's cells. On the plane that faces the axis nearest to the light they are
+/// squares that are turned by 1 in n, so that n^2 + 1 of them make the square of a cell: a grid that is moved by whole cells has
+/// the same texels in its cells, each texel of a cell lies at another height of a wall, and cells of a floor have equally many.
+struct TexelLattice {
+    glm::dvec3 along{0};  ///< as light goes
+    glm::length_t facing = 0;
+    double texel = 1;  ///< meters
+    glm::dvec3 u{0},
+        v{0};  ///< what a place is multiplied with: where light through it meets the plane through the world's origin
+
+    TexelLattice(const glm::dvec3& direction, const MappedBox& box, std::uint32_t size) : along(glm::normalize(direction)) {
+        for (const glm::length_t i : {1, 2})
+            if (std::abs(along[i]) > std::abs(along[facing])) facing = i;
+        const double narrowest = std::min(box.high[(facing + 1) % 3] - box.low[(facing + 1) % 3],
+                                          box.high[(facing + 2) % 3] - box.low[(facing + 2) % 3]);
+        double n = std::floor(size * box.cell / narrowest);
+        for (; n >= 1; --n)
+            if (set(n, box.cell / std::hypot(n, 1.)); width(box) <= size * texel) return;
+        // Fewer texels than cells: a whole number of cells makes a texel.
+        for (n = 1; n <= 1024 && (set(0, n * box.cell), width(box) > size * texel); ++n) {}
+    }
+    /// Of the map, with a texel for its place on the lattice.
+    double width(const MappedBox& box) const {
+        return std::max(glm::dot(glm::abs(u), box.high - box.low), glm::dot(glm::abs(v), box.high - box.low)) + texel;
+    }
+
+private:
+    /// n: 0 for texels along the axes.
+    void set(double n, double width_of_texel) {
+        texel = width_of_texel;
+        const auto projection = [&](glm::length_t axis) {
+            glm::dvec3 row(0);
+            row[axis] = 1, row[facing] = -along[axis] / along[facing];
+            return row;
+        };
+        const glm::dvec3 first = projection((facing + 1) % 3), second = projection((facing + 2) % 3);
+        const glm::dvec2 turn = n > 0 ? glm::normalize(glm::dvec2(n, 1)) : glm::dvec2(1, 0);
+        u = turn.x * first + turn.y * second, v = turn.x * second - turn.y * first;
+    }
+};
+
+}  // namespace
+
+LightMaps maps_over(const SceneFacts& facts, const Light& light, const LightGrid& grid, std::uint32_t map_size) {
     const Frame& frame = facts.frame();
-    const ParallelAxes axes = parallel_axes(glm::dvec3(light.direction));
-    const double half = radius(grid), texel = 2 * half / size;
-    const glm::dvec3 middle = grid.origin + .5 * grid.cell * glm::dvec3(grid.cells);
-    const auto row = [&](const glm::dvec3& axis) {
-        const double corner = std::floor((glm::dot(middle, axis) - half) / texel) * texel;
-        const glm::dvec3 in_view = frame.view.to_view * axis;
-        return glm::dvec4(in_view, glm::dot(frame.view.origin, axis) - corner - half) / half;
+    const std::uint32_t size = parallel_map_scale * map_size;
+    const MappedBox box(grid);
+    const TexelLattice lattice(glm::dvec3(light.direction), box, size);
+    const double half = .5 * size * lattice.texel;
+    const auto row = [&](const glm::dvec3& axis, double shift) {
+        const glm::dvec3 least = glm::min(axis * box.low, axis * box.high);
+        const double corner = (std::floor((least.x + least.y + least.z) / lattice.texel - shift) + shift) * lattice.texel;
+        return glm::dvec4(frame.view.to_view * axis, glm::dot(frame.view.origin, axis) - corner - half) / half;
     };
-    const glm::dvec3 along = frame.view.to_view * axes.along;
+    glm::dvec4 x = row(lattice.u, map_shift_u), y = row(lattice.v, map_shift_v);
+    if (lattice.along[lattice.facing] < 0) std::swap(x, y);  // front faces stay front faces
+    const glm::dvec3 along = frame.view.to_view * lattice.along, middle = in_view_space(frame.view, .5 * (box.low + box.high));
     // A surface behind the grid may still light its last cells.
-    const double behind = glm::dot(in_view_space(frame.view, middle), along) + half + grid.cell;
-    double before = behind - 2 * half;
+    const double behind = glm::dot(middle, along) + .5 * glm::length(box.high - box.low) + grid.cell;
+    double before = behind - glm::length(box.high - box.low);
     for (const std::uint32_t draw : facts.lists().casters) {
         const BoundingSphere& caster = facts.bounds().spheres[draw];
         before = std::min(before, glm::dot(caster.center, along) - caster.radius);
     }
     before -= 1e-3 * (behind - before);  // so that no caster is clipped for a rounded depth above 1
-    return {.views = {rows(row(axes.u), row(axes.v), glm::dvec4(-along, behind) / (behind - before), {0, 0, 0, 1})},
-            .texel_area = float(texel * texel)};
+    return {.views = {rows(x, y, glm::dvec4(-along, behind) / (behind - before), {0, 0, 0, 1})},
+            .size = size,
+            .texel_area = float(lattice.texel * lattice.texel * std::abs(lattice.along[lattice.facing]))};
 }
 
 bool injects(const Light& light, const LightGrid& grid) {
@@ -100,11 +160,11 @@ double most_flux(const Light& light, const LightGrid& grid) {
     return strongest(light) * widest_side(light) * extent(light, grid);
 }
 
-MapImages draw_maps(Graph& graph, const FrameImages& frame, const LightMaps& maps, std::uint32_t size) {
+MapImages draw_maps(Graph& graph, const FrameImages& frame, const LightMaps& maps) {
     const auto image = [&](std::string_view name, Format format) {
-        Image made =
-            graph.create(std::string(name),
-                         {.extent = {size, size}, .format = format, .layers = static_cast<std::uint32_t>(maps.views.size())});
+        Image made = graph.create(
+            std::string(name),
+            {.extent = {maps.size, maps.size}, .format = format, .layers = static_cast<std::uint32_t>(maps.views.size())});
         graph.clear(made, {});
         return made;
     };

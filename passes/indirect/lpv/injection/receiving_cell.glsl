@@ -1,8 +1,8 @@
 // The cell that takes what a piece of a surface sends out, and the fixed point in which it does (docs/algorithms/lighting.md 5.3).
 #ifndef PASSES_INDIRECT_LPV_RECEIVING_CELL_GLSL
 #define PASSES_INDIRECT_LPV_RECEIVING_CELL_GLSL
-#include "passes/indirect/grid.glsl"
-#include "passes/indirect/lpv/lpv.shared.h"
+#include "passes/indirect/lit_place.glsl"
+#include "passes/indirect/lpv/channels.glsl"
 #include "passes/indirect/ways.glsl"
 
 layout(constant_id = 11) const uint guards = 0u;  // 1: not into cells that a blocker hides from the surface
@@ -24,7 +24,7 @@ ivec3 neighbor(ivec3 cell, uint i) {
 
 // The cell before the surface; where a blocker hides it, the one a whole cell before, then neighbors by their distance. None: x < 0.
 ivec3 guarded_cell(GridPlace grid, vec3 surface, vec3 n, ivec3 first, vec3 biased) {
-    const vec3 from = in_view(surface + 0.01 * n);
+    const vec3 from = way_start(LitPlace(surface, n));
     if (!is_stopped(from, in_view(middle_of(grid, first)))) return first;
     const ivec3 farther = taking_cell(grid, surface + n * grid.cell, n);
     if (in_grid(grid, farther) && !is_stopped(from, in_view(middle_of(grid, farther)))) return farther;
@@ -57,15 +57,21 @@ ivec3 receiving_cell(GridPlace grid, vec3 surface, vec3 n, float bias) {
     return cell;
 }
 
-// W per channel, of a surface that reflects as Lambert's does. Sums of l0 are never negative.
-void add_lobe(uint cell, vec3 flux, vec3 n, float fixed_one) {
-    for (uint channel = 0u; channel < 3u; ++channel) {
-        const vec4 lobe = vec4(watt0, watt1 * n) * (flux[channel] * fixed_one);
-        for (uint i = 0u; i < 4u; ++i) {
-            const int part = int(roundEven(lobe[i])), before = atomicAdd(sums[cell * 12u + channel * 4u + i], part);
-            if (i == 0u && before < most_of_a_sum && before + part >= most_of_a_sum) atomicAdd(counters.overflowed, 1u);
-        }
+// Of one channel. Sums of l0 are never negative.
+void add_to_sum(uint cell, uint channel, vec4 lobe) {
+    for (uint i = 0u; i < 4u; ++i) {
+        const int part = int(roundEven(lobe[i])), before = atomicAdd(sums[4u * (cell * channels + channel) + i], part);
+        if (i == 0u && before < most_of_a_sum && before + part >= most_of_a_sum) atomicAdd(counters.overflowed, 1u);
     }
+}
+
+// W per channel, of a surface that reflects as Lambert's does.
+void add_lobe(uint cell, vec3 flux, vec3 n, float fixed_one) {
+    const vec4 lobe = vec4(watt0, watt1 * n);
+    for (uint channel = 0u; channel < color_channels; ++channel) add_to_sum(cell, channel, lobe * (flux[channel] * fixed_one));
+    if (!knows_facing()) return;
+    const vec3 facing = (flux.r + flux.g + flux.b) / 3.0 * (0.5 + 0.5 * n);
+    for (uint axis = 0u; axis < 3u; ++axis) add_to_sum(cell, color_channels + axis, lobe * (facing[axis] * fixed_one));
 }
 
 #endif

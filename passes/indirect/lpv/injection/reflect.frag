@@ -14,8 +14,7 @@ layout(set = 0, binding = 1, scalar) readonly buffer Scale { float fixed_one; };
 
 vec3 irradiance_at(vec3 place, vec3 n) {
     if (depth_inside(push.grid, place) <= 0.0) return vec3(0.0);
-    const LightCell light = seen_light(push.grid, LitPlace(place, n)).light;
-    return 3.14159265358979 * irradiance_over_pi(push.grid, light, n);
+    return 3.14159265358979 * received_light(push.grid, seen_light(push.grid, LitPlace(place, n)), first_facing(), n);
 }
 
 void reflect_side(Surfel s, vec3 n) {

@@ -4,12 +4,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <tbb/parallel_for.h>
 
 #include "capture_format/frame/frame.h"
 #include "capture_format/light_types.h"
 #include "passes/indirect/lpv/injection/emission_model.h"
+#include "passes/indirect/lpv/lpv.shared.h"
 #include "passes/reference/lights.h"
 #include "passes/reference/surfaces.h"
 #include "passes/reference/triangles.h"
@@ -21,6 +23,8 @@ namespace {
 constexpr double widest_spot = 85 * 3.14159265358979323846 / 180;
 // Meters along its axis where a map of a local light begins.
 constexpr double nearest_surface = 0.05;
+// Meters by which rectangles are wider than recorded, as direct light has them at least (docs/algorithms/lighting.md 2.2).
+constexpr double light_slack = 1e-5;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// View space, either side.
@@ -30,6 +34,35 @@ glm::dvec3 surface_normal(const Frame& frame, const Hit& hit, const Attributes& 
     if (glm::dot(vertex_normal, vertex_normal) > 0) return glm::normalize(vertex_normal);
     const Corners corners = view_corners(frame, space, hit.draw, hit.triangle);
     return glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+}
+
+/// Where the texels of a map of parallel light lie on their plane, in cells.
+struct MapLattice {
+    glm::dvec2 axis{1, 0};  ///< of the first side of texels; the second is a quarter turn on
+    double texel = 1;
+    glm::dvec2 corner{0};  ///< of the map, along both sides
+};
+
+/// Texels whose sides are (n, 1) and (-1, n) over n^2 + 1, for the largest n at which they cover all corners; 1, 2, 3 ... cells
+/// wide where no n does.
+MapLattice map_lattice(std::span<const glm::dvec2> corners, std::uint32_t texels) {
+    const auto lattice_of = [&](const glm::dvec2& side) -> std::optional<MapLattice> {
+        MapLattice lattice{.axis = glm::normalize(side), .texel = glm::length(side)};
+        glm::dvec2 low(std::numeric_limits<double>::max()), high(-low);
+        for (const glm::dvec2& corner : corners) {
+            const glm::dvec2 at(glm::dot(corner, lattice.axis), lattice.axis.x * corner.y - lattice.axis.y * corner.x);
+            low = glm::min(low, at), high = glm::max(high, at);
+        }
+        const glm::dvec2 shift(map_shift_u, map_shift_v), wide = high - low + lattice.texel;
+        if (std::max(wide.x, wide.y) > texels * lattice.texel) return std::nullopt;
+        lattice.corner = (glm::floor(low / lattice.texel - shift) + shift) * lattice.texel;
+        return lattice;
+    };
+    for (double n = texels; n >= 1; --n)
+        if (const auto lattice = lattice_of(glm::dvec2(n, 1) / (n * n + 1))) return *lattice;
+    for (double n = 1; n <= 1024; ++n)
+        if (const auto lattice = lattice_of({n, 0})) return *lattice;
+    return {};
 }
 
 bool is_positive(const glm::dvec3& flux) { return flux.x > 0 || flux.y > 0 || flux.z > 0; }
@@ -50,15 +83,32 @@ struct ReflectiveMaps::Surface {
     double distance = 0;  ///< along the ray, in lengths of its direction
 };
 
+/// The blockers of one light: as direct light asks about them, and as ways of bounced light do.
+struct ReflectiveMaps::InTheWay {
+    LightBlockers blockers;
+    std::vector<Barrier> barriers;
+
+    InTheWay(const Frame& frame, const Light& light) : blockers(light_blockers(frame, light)) {
+        for (const LightBlocker& use : blockers.blockers) barriers.push_back(barrier(frame, use.blocker, light.portals));
+    }
+    /// Whether a barrier is between the light and the place that stands for a surface. The sun is 1e7 m away.
+    bool part(const Light& light, const Surface& surface) const {
+        const glm::dvec3 begin = way_begin(surface.position, surface.normal);
+        const glm::dvec3 from =
+            has_range(light.type) ? light.position : begin - 1e7 * glm::normalize(glm::dvec3(light.direction));
+        return is_blocked(barriers, {from, begin}, light_slack);
+    }
+};
+
 ReflectiveMaps::ReflectiveMaps(const Frame& frame, std::uint32_t texels_a_side)
     : frame_(&frame), texels_(texels_a_side), scene_(frame, RayMask::shadow_casters) {}
 
 /// Calls texel(i, j) for all of a map, rows in parallel, and puts what they give in the order of the rows.
 template <typename Texel>
-std::vector<VirtualLight> ReflectiveMaps::map_of(const Texel& texel) const {
-    std::vector<std::vector<VirtualLight>> rows(texels_);
-    tbb::parallel_for(0u, texels_, [&](std::uint32_t j) {
-        for (std::uint32_t i = 0; i < texels_; ++i)
+std::vector<VirtualLight> ReflectiveMaps::map_of(std::uint32_t texels, const Texel& texel) const {
+    std::vector<std::vector<VirtualLight>> rows(texels);
+    tbb::parallel_for(0u, texels, [&](std::uint32_t j) {
+        for (std::uint32_t i = 0; i < texels; ++i)
             if (const std::optional<VirtualLight> light = texel(i, j); light && is_positive(light->flux))
                 rows[j].push_back(*light);
     });
@@ -82,36 +132,37 @@ std::optional<ReflectiveMaps::Surface> ReflectiveMaps::met(const LightRay& ray) 
     return surface;
 }
 
-bool ReflectiveMaps::is_reached(const Light& light, const LightBlockers& blockers, const Surface& surface) const {
+bool ReflectiveMaps::is_reached(const Light& light, const InTheWay& in_the_way, const Surface& surface) const {
     const bool is_clipped = std::ranges::any_of(
         light.clip_planes, [&](const ClipPlane& plane) { return glm::dot(plane.normal, surface.position) + plane.distance < 0; });
     if (is_clipped) return false;
     const glm::dvec3 position = frame_->view.to_view * (surface.position - frame_->view.origin);
-    return lets_through(blockers, light_point(*frame_, light), off_surface(position, frame_->view.to_view * surface.normal));
+    return lets_through(in_the_way.blockers, light_point(*frame_, light),
+                        off_surface(position, frame_->view.to_view * surface.normal));
 }
 
-std::vector<VirtualLight> ReflectiveMaps::side_of(const Light& light, const LightBlockers& blockers, const MapSide& side) const {
+std::vector<VirtualLight> ReflectiveMaps::side_of(const Light& light, const InTheWay& in_the_way, const MapSide& side) const {
     const double texel_area = 4 * side.slopes.x * side.slopes.y / (double(texels_) * texels_);
-    return map_of([&](std::uint32_t i, std::uint32_t j) -> std::optional<VirtualLight> {
+    return map_of(texels_, [&](std::uint32_t i, std::uint32_t j) -> std::optional<VirtualLight> {
         const glm::dvec2 t = (glm::dvec2(i + 0.5, j + 0.5) / double(texels_) * 2.0 - 1.0) * side.slopes;
         const glm::dvec3 direction = side.axes.along + side.axes.u * t.x + side.axes.v * t.y;
         const auto surface = met({.origin = light.position, .direction = direction, .begin = nearest_surface});
-        if (!surface || !is_reached(light, blockers, *surface)) return std::nullopt;
+        if (!surface || !is_reached(light, in_the_way, *surface)) return std::nullopt;
         const double stretch = glm::length(direction), window = range_window(light, surface->distance * stretch);
         const double solid_angle = texel_area / (stretch * stretch * stretch);
-        return VirtualLight{
-            .position = surface->position,
-            .normal = surface->normal,
-            .flux = surface->reflectance * radiant_intensity(light, direction / stretch) * (window * solid_angle)};
+        return VirtualLight{.position = surface->position,
+                            .normal = surface->normal,
+                            .flux = surface->reflectance * radiant_intensity(light, direction / stretch) * (window * solid_angle),
+                            .is_behind_blocker = in_the_way.part(light, *surface)};
     });
 }
 
 std::vector<VirtualLight> ReflectiveMaps::of_local(const Light& light) const {
-    const LightBlockers blockers = light_blockers(*frame_, light);
+    const InTheWay in_the_way(*frame_, light);
     if (is_spot(light.type)) {
         const double u = spot_slope(light.outer_angle);
         const double v = facts_of(light.type).cone == LightCone::square ? spot_slope(light.inner_angle) : u;
-        return side_of(light, blockers, {.axes = light_axes(light), .slopes = {u, v}});
+        return side_of(light, in_the_way, {.axes = light_axes(light), .slopes = {u, v}});
     }
     std::vector<VirtualLight> all;
     for (glm::length_t face = 0; face < 6; ++face) {  // +x -x +y -y +z -z
@@ -119,26 +170,42 @@ std::vector<VirtualLight> ReflectiveMaps::of_local(const Light& light) const {
         side.axes.along[face / 2] = face % 2 == 0 ? 1 : -1;
         side.axes.u[(face / 2 + 1) % 3] = 1;
         side.axes.v = glm::cross(side.axes.along, side.axes.u);
-        const std::vector<VirtualLight> lights = side_of(light, blockers, side);
+        const std::vector<VirtualLight> lights = side_of(light, in_the_way, side);
         all.insert(all.end(), lights.begin(), lights.end());
     }
     return all;
 }
 
 std::vector<VirtualLight> ReflectiveMaps::of_directional(const Light& light, const Grid& grid) const {
-    const LightBlockers blockers = light_blockers(*frame_, light);
-    const LightAxes axes = axes_around(light.direction);
-    const glm::dvec3 &along = axes.along, &u = axes.u, &v = axes.v;
-    const glm::dvec3 half = grid.cell_size * glm::dvec3(grid.cells) / 2.0, middle = grid.origin + half;
-    const double radius = glm::length(half), texel = 2 * radius / texels_;
-    const glm::dvec2 corner = glm::floor((glm::dvec2(glm::dot(middle, u), glm::dot(middle, v)) - radius) / texel) * texel;
-    const glm::dvec3 power = glm::max(glm::dvec3(light.intensity), 0.0) * (texel * texel);
-    return map_of([&](std::uint32_t i, std::uint32_t j) -> std::optional<VirtualLight> {
-        const glm::dvec2 at = corner + glm::dvec2(i + 0.5, j + 0.5) * texel;
-        const glm::dvec3 origin = u * at.x + v * at.y + along * glm::dot(along, middle);
+    const InTheWay in_the_way(*frame_, light);
+    const glm::dvec3 along = glm::normalize(glm::dvec3(light.direction)), steepness = glm::abs(along);
+    const bool is_x = steepness.x >= steepness.y && steepness.x >= steepness.z, is_y = !is_x && steepness.y >= steepness.z;
+    const glm::length_t deep = is_x ? 0 : is_y ? 1 : 2;
+    const glm::dvec3 way = along / along[deep];  // per meter of depth
+    // The corners of the grid and a cell around it, as light brings them to the plane across the deep axis at 0, in cells.
+    std::array<glm::dvec2, 8> corners;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const glm::dvec3 at =
+            grid.origin / grid.cell_size - 1.0 + glm::dvec3(i & 1, i >> 1 & 1, i >> 2) * (glm::dvec3(grid.cells) + 2.0);
+        const glm::dvec3 on_plane = at - way * at[deep];
+        corners[i] = {on_plane[(deep + 1) % 3], on_plane[(deep + 2) % 3]};
+    }
+    const std::uint32_t texels = 3 * texels_;
+    const MapLattice lattice = map_lattice(corners, texels);
+    const double texel = lattice.texel * grid.cell_size;
+    const glm::dvec3 power = glm::max(glm::dvec3(light.intensity), 0.0) * (texel * texel * steepness[deep]);
+    return map_of(texels, [&](std::uint32_t i, std::uint32_t j) -> std::optional<VirtualLight> {
+        const glm::dvec2 at = lattice.corner + (glm::dvec2(i, j) + 0.5) * lattice.texel;
+        const glm::dvec2 flat = grid.cell_size * (at.x * lattice.axis + at.y * glm::dvec2(-lattice.axis.y, lattice.axis.x));
+        glm::dvec3 origin = way * grid.origin[deep];
+        origin[(deep + 1) % 3] += flat.x;
+        origin[(deep + 2) % 3] += flat.y;
         const auto surface = met({.origin = origin, .direction = along, .begin = -infinity});
-        if (!surface || !is_reached(light, blockers, *surface)) return std::nullopt;
-        return VirtualLight{.position = surface->position, .normal = surface->normal, .flux = surface->reflectance * power};
+        if (!surface || !is_reached(light, in_the_way, *surface)) return std::nullopt;
+        return VirtualLight{.position = surface->position,
+                            .normal = surface->normal,
+                            .flux = surface->reflectance * power,
+                            .is_behind_blocker = in_the_way.part(light, *surface)};
     });
 }
 

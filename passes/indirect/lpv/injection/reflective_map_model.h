@@ -22,7 +22,7 @@ public:
 
     /// One map for a spot, six for other lights that are not directional. Row by row.
     std::vector<VirtualLight> of_local(const Light&) const;
-    /// The map of a directional light over a grid.
+    /// The map of a directional light over a grid: three times as many texels a side.
     std::vector<VirtualLight> of_directional(const Light&, const Grid&) const;
 
 private:
@@ -33,11 +33,12 @@ private:
     };
     struct MapSide;
     struct Surface;
+    struct InTheWay;
     template <typename Texel>
-    std::vector<VirtualLight> map_of(const Texel&) const;
-    std::vector<VirtualLight> side_of(const Light&, const LightBlockers&, const MapSide&) const;
+    std::vector<VirtualLight> map_of(std::uint32_t texels, const Texel&) const;
+    std::vector<VirtualLight> side_of(const Light&, const InTheWay&, const MapSide&) const;
     std::optional<Surface> met(const LightRay&) const;
-    bool is_reached(const Light&, const LightBlockers&, const Surface&) const;
+    bool is_reached(const Light&, const InTheWay&, const Surface&) const;
 
     const Frame* frame_;
     std::uint32_t texels_;

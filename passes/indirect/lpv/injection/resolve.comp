@@ -12,6 +12,7 @@ layout(set = 0, binding = 0, scalar) readonly buffer Sums { ivec4 sums[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer Total { uint total[]; };
 layout(set = 0, binding = 4, scalar) readonly buffer Scale { float fixed_one; };
 layout(constant_id = 3) const uint has_scale = 0u;  // 1: the fixed point is known on the device alone
+layout(constant_id = 4) const uint shows_injected = 1u;  // 0: surfaces read only what was propagated (self_uninjected)
 layout(set = 0, binding = 5, scalar) readonly buffer Brightest { uint brightest; };  // l0 of all sums; of storage_half alone
 layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
 
@@ -26,7 +27,7 @@ int brightest_exponent() { return findMSB(max(brightest, 1u)); }
 
 void store(uint cell, uint channel, vec4 in_step, vec4 in_total) {
     store_step(cell, channel, in_step);
-    const uvec4 words = words_of(in_total);
+    const uvec4 words = words_of(shows_injected != 0u ? in_total : vec4(0.0));
     const uint at = total_word(cell, channel);
     for (uint i = 0u; i < stored_words(); ++i) total[at + i] = words[i];
 }
@@ -41,8 +42,8 @@ void main() {
     if (!in_grid(push.grid, at)) return;
     const uint cell = cell_index(push.grid, at);
     const float unit = fixed_unit();
-    for (uint channel = 0u; channel < 3u; ++channel) {
-        const vec4 sum = vec4(sums[3u * cell + channel]);
+    for (uint channel = 0u; channel < channels; ++channel) {
+        const vec4 sum = vec4(sums[channels * cell + channel]);
         if (has_halves()) store_halves(cell, channel, sum);
         else store(cell, channel, sum * unit, sum * unit);
     }

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/indirect/grid.glsl"
+#include "passes/indirect/lpv/channels.glsl"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 
@@ -12,5 +13,5 @@ void main() {
     const ivec3 at = ivec3(gl_GlobalInvocationID);
     if (!in_grid(grid, at)) return;
     const uint cell = cell_index(grid, at);
-    for (uint channel = 0u; channel < 3u; ++channel) sums[3u * cell + channel] = ivec4(0);
+    for (uint channel = 0u; channel < channels; ++channel) sums[channels * cell + channel] = ivec4(0);
 }

@@ -61,7 +61,7 @@ uvec3 groups_if(bool open, uvec3 threads, uvec3 size) { return open ? (threads +
 void write_gates(Task w) {
     const uvec3 cube = uvec3(4u), square = uvec3(8u, 8u, 1u);
     gates[gate_cells] = groups_if(w.starts, push.cells, cube);
-    gates[gate_one_map] = groups_if(w.starts, uvec3(push.map_size, push.map_size, 1u), square);
+    gates[gate_one_map] = groups_if(w.starts, uvec3(push.one_map_size, push.one_map_size, 1u), square);
     gates[gate_six_maps] = groups_if(w.starts, uvec3(push.map_size, push.map_size, 6u), square);
     gates[gate_faces] = groups_if(w.finds_links, push.cells * uvec3(1u, 1u, 3u), cube);
     gates[gate_barriers] = groups_if(w.finds_links, uvec3(push.blockers + push.portals, 1u, 1u), uvec3(64u, 1u, 1u));

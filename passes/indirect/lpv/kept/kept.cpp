@@ -5,6 +5,7 @@
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/light.h"
 #include "passes/frame_images.h"
+#include "passes/indirect/lpv/injection/maps.h"
 #include "passes/indirect/lpv/kept/kept.shared.h"
 #include "passes/indirect/lpv/kept/keys.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
@@ -57,6 +58,7 @@ KeptGrid decide(Graph& graph, const FrameImages& frame, const LpvParams& params,
                          .iterations = steps,
                          .slice = params.slice,
                          .map_size = params.map_size,
+                         .one_map_size = parallel_map_scale * params.map_size,
                          .blockers = count_of(frame.recorded->blockers),
                          .portals = count_of(frame.recorded->portals),
                          .starting_bit = grid.starting_bit()})
@@ -126,6 +128,7 @@ void keep(Graph& graph, std::vector<DeviceGrid>& grids, KeptGrids& kept) {
                       .loads("Coming", grid.total)
                       .stores("Shown", kept[i].shown)
                       .fixes("cell_storage", grid.storage)
+                      .fixes("channels", grid.channels)
                       .push(grid.place),
                   grid, gate_show, grid.threads());
             grid.total = kept[i].shown;

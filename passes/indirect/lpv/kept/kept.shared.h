@@ -28,7 +28,8 @@ struct KeptWork {
 struct DecidePush {
     uvec2 light, place, linked, lattice;  // keys as in KeptState; linked is 0 without links
     uvec3 first, cells;
-    uint iterations, slice, map_size;
+    uint iterations, slice;
+    uint map_size, one_map_size;  // texels a side of six maps, and of one: as many as parallel light has
     uint blockers, portals;
     uint starting_bit;
 };

@@ -32,6 +32,7 @@ uvec2 place_key(uvec2 lattice, const LpvParams& params, const DeviceGrid& grid) 
     if (grid.has_links) digest.add(lattice);
     digest.add(grid.grid.origin).add(grid.grid.cell).add(grid.grid.cells).add(grid.has_links);
     digest.add(iterations(params, grid)).add(params.propagation).add(params.faces).add(params.cell_storage);
+    digest.add(params.self_light).add(params.lobes);
     return words(digest.value());
 }
 

@@ -14,6 +14,6 @@ void main() {
     const ivec3 at = ivec3(gl_GlobalInvocationID);
     if (!in_grid(grid, at)) return;
     const uint cell = cell_index(grid, at), first = total_word(cell, 0u);
-    for (uint i = 0u; i < 3u * stored_words(); ++i) shown[first + i] = coming[first + i];
+    for (uint i = 0u; i < channels * stored_words(); ++i) shown[first + i] = coming[first + i];
     if (has_halves() && cell == 0u) shown[0] = coming[0];
 }

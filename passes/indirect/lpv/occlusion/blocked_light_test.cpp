@@ -351,6 +351,37 @@ TEST(BlockedLight, IsInjectedIntoTheNearestCellThatIsNotHidden) {
     EXPECT_EQ(under_shelf(4.5), uvec3(5, 4, 4)) << "all are as near: +x first";
 }
 
+// One rule for all that asks about the side of a wall: 2 cm along the normal.
+TEST(BlockedLight, IsOnTheSideOfAWallThatLiesTwoCentimetersBeforeItsSurface) {
+    const Grid grid = grid_of(8);
+    Frame frame;
+    frame.blockers = {wall_across_x({4.6, 4, 4}, 10)};
+    const std::vector<Barrier> wall = barriers(frame);
+    for (const double behind : {-.05, -.002, 0., .009, .012, .015, .018}) {  // not within 1 mm of the plane
+        const VirtualLight light = light_at({4.6 + behind, 4.2, 4.2}, {-1, 0, 0});
+        const auto cell = receiving_cell(grid, light, {.barriers = wall});
+        ASSERT_TRUE(cell) << behind;
+        EXPECT_LT(cell_middle(grid, glm::ivec3(*cell)).x, 4.6) << behind;
+        LitGrid lit{.grid = grid, .light = {}, .tap_barriers = wall};
+        lit.light.fill(Channel(cell_count(grid)));
+        for (std::size_t i = 0; i < cell_count(grid); ++i)
+            if (i % 8 < 5) lit.light[0][i] = {1, 0, 0, 0};
+        EXPECT_NEAR(sampled(lit, 0, {light.position, light.normal}).x, 1, 1e-12) << "reads the same side, " << behind;
+    }
+    const VirtualLight beyond = light_at({4.6 + .023, 4.2, 4.2}, {-1, 0, 0});
+    EXPECT_GT(receiving_cell(grid, beyond, {.barriers = wall})->x, 4u);
+}
+
+TEST(BlockedLight, IsNotInjectedWhereItsLightIsOnAnotherSide) {
+    Frame frame;
+    frame.blockers = {wall_across_x({4.6, 4, 4}, 10)};
+    const std::vector<Barrier> wall = barriers(frame);
+    VirtualLight light = light_at({4.604, 4, 4.2}, {0, 1, 0});
+    light.is_behind_blocker = true;
+    EXPECT_EQ(receiving_cell(grid_of(8), light, {.barriers = wall}), std::nullopt);
+    EXPECT_TRUE(receiving_cell(grid_of(8), light, {})) << "where blockers stop nothing";
+}
+
 TEST(BlockedLight, IsInjectedThroughAPortal) {
     Frame frame;
     frame.blockers = {wall_across_x({4.6, 4, 4}, 10)};

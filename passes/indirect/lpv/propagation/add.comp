@@ -25,7 +25,7 @@ void main() {
     const ivec3 at = ivec3(gl_GlobalInvocationID);
     if (!in_grid(grid, at)) return;
     const uint cell = cell_index(grid, at);
-    for (uint channel = 0u; channel < 3u; ++channel) {
+    for (uint channel = 0u; channel < channels; ++channel) {
         const vec4 sum = add_to_channel(cell, channel, more_channel(cell, channel));
         if (has_halves() && any(greaterThan(abs(sum), vec4(largest_half)))) atomicAdd(counters.overflowed, 1u);
     }

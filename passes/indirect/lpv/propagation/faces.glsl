@@ -6,6 +6,7 @@
 
 layout(constant_id = 1) const uint propagation = propagation_linear;
 layout(constant_id = 2) const uint faces = faces_centre;
+layout(constant_id = 99) const uint lobes = lobes_face;
 
 // Of a neighbor's face ahead and one beside it: the solid angle, and the mean direction times it, ahead and aside.
 const float angle_ahead = 0.400669684646, angle_aside = 0.423431354437;
@@ -17,6 +18,12 @@ float moment_ahead() {
 vec2 moment_aside() {
     if (faces == faces_centre) return angle_aside * vec2(0.8944271910, 0.4472135955);
     return vec2(0.3383564674, 0.2193731309);
+}
+
+// Of the light that a face beside takes: how much of its direction is along the way, and how much across the face.
+vec2 lobe_aside() {
+    if (lobes == lobes_face) return vec2(0.0, 1.0);
+    return vec2(0.8944271910, 0.4472135955);
 }
 
 vec3 aside_of(vec3 d, vec3 f) { return moment_aside().x * d + moment_aside().y * f; }
@@ -35,8 +42,9 @@ vec3 unit(uint axis, float direction) {
 // The sum below where no face is clamped, in closed form: what opposite faces send of l0 and of l1 along the axis cancels.
 vec4 through_unclamped_faces(vec4 light, uint axis, float direction) {
     const float along = y1 * light[axis + 1u];
-    vec4 sum = vec4(0.0, 2.0 * moment_aside().y * y1 * light.yzw);
-    sum[axis + 1u] = direction * angle_ahead * y0 * light.x + moment_ahead() * along;
+    const float aside = 4.0 * (direction * angle_aside * y0 * light.x + moment_aside().x * along);
+    vec4 sum = vec4(0.0, 2.0 * moment_aside().y * lobe_aside().y * y1 * light.yzw);
+    sum[axis + 1u] = direction * angle_ahead * y0 * light.x + moment_ahead() * along + lobe_aside().x * aside;
     sum.x = (angle_ahead + 4.0 * angle_aside) * y0 * light.x + direction * (moment_ahead() + 4.0 * moment_aside().x) * along;
     return sum;
 }
@@ -49,7 +57,7 @@ vec4 through_faces(vec4 light, uint axis, float direction) {
     vec4 sum = ahead * vec4(1.0, d);
     for (uint k = 0u; k < 4u; ++k) {
         const vec3 f = unit((axis + 1u + k / 2u) % 3u, k % 2u == 0u ? 1.0 : -1.0);
-        sum += flux(light, angle_aside, aside_of(d, f)) * vec4(1.0, f);
+        sum += flux(light, angle_aside, aside_of(d, f)) * vec4(1.0, lobe_aside().x * d + lobe_aside().y * f);
     }
     return sum;
 }

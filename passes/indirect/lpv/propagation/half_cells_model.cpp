@@ -32,12 +32,12 @@ Channel HalfCells::before_step(const Channel& light, const PropagationRule& rule
 
 Channel HalfCells::summed(const Channel& light) const { return rounded(light, 7 - exponent_); }
 
-Channel propagated_in_halves(const StepLinks& links, const HalfCells& halves, const Channel& injected,
+Channel propagated_in_halves(const StepLinks& links, const HalfCells& halves, const FirstLight& first,
                              const PropagationRule& rule, std::uint32_t iterations) {
     // What is stored is scaled already.
-    const PropagationRule sending{rule.propagation == propagation_energy_true ? propagation_clamped : rule.propagation,
-                                  rule.faces};
-    Channel sum = halves.summed(injected), light = injected;
+    PropagationRule sending = rule;
+    if (rule.propagation == propagation_energy_true) sending.propagation = propagation_clamped;
+    Channel sum = halves.summed(first.shown), light = first.injected;
     for (std::uint32_t i = 0; i < iterations; ++i) {
         light = next_step(i == 0 ? links.first : links.later, halves.before_step(light, rule), sending);
         for (std::size_t cell = 0; cell < sum.size(); ++cell) sum[cell] += light[cell];

@@ -28,8 +28,13 @@ struct StepLinks {
     const Links &first, &later;
 };
 
-/// The sum of `injected` and of what every step after it gave, all of it as halves keep it.
-Channel propagated_in_halves(const StepLinks&, const HalfCells&, const Channel& injected, const PropagationRule&,
+/// What the first step sends on, and what the sum over steps begins with.
+struct FirstLight {
+    const Channel &injected, &shown;
+};
+
+/// The sum of what is shown at first and of what every step gives, all of it as halves keep it.
+Channel propagated_in_halves(const StepLinks&, const HalfCells&, const FirstLight&, const PropagationRule&,
                              std::uint32_t iterations);
 
 }  // namespace strata::indirect::in_double

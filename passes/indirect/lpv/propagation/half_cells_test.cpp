@@ -28,7 +28,7 @@ struct LitMiddle {
     std::size_t at(std::uint32_t x, std::uint32_t y, std::uint32_t z) const { return cell_index(uvec3(cells), {x, y, z}); }
     Channel summed(const PropagationRule& rule, std::uint32_t steps) const {
         const Links links{uvec3(cells)};
-        return propagated_in_halves({links, links}, HalfCells({channel, {}, {}}), channel, rule, steps);
+        return propagated_in_halves({links, links}, HalfCells({channel, {}, {}}), {channel, channel}, rule, steps);
     }
 };
 

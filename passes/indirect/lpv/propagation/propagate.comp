@@ -20,7 +20,8 @@ void store(uint cell, uint channel, vec4 gathered) {
 void main() {
     const ivec3 cell = ivec3(gl_GlobalInvocationID);
     if (!in_grid(grid, cell)) return;
-    LightCell gathered = LightCell(vec4(0.0), vec4(0.0), vec4(0.0));
+    vec4 gathered[facing_channels];
+    for (uint channel = 0u; channel < channels; ++channel) gathered[channel] = vec4(0.0);
     for (uint i = 0u; i < 6u; ++i) {
         const uint axis = i / 2u;
         const int direction = i % 2u == 0u ? 1 : -1;
@@ -28,13 +29,10 @@ void main() {
         from[axis] -= direction;
         if (!in_grid(grid, from)) continue;
         const float through = transmitted(grid, direction > 0 ? from : cell, axis);
-        const StepCell s = step_before(cell_index(grid, from));
-        gathered.red += through * sent(s.light.red, s.share[0], axis, float(direction));
-        gathered.green += through * sent(s.light.green, s.share[1], axis, float(direction));
-        gathered.blue += through * sent(s.light.blue, s.share[2], axis, float(direction));
+        const uint sender = cell_index(grid, from);
+        for (uint channel = 0u; channel < channels; ++channel)
+            gathered[channel] += through * sent(before_channel(sender, channel), share_before(sender, channel), axis, float(direction));
     }
     const uint index = cell_index(grid, cell);
-    store(index, 0u, gathered.red);
-    store(index, 1u, gathered.green);
-    store(index, 2u, gathered.blue);
+    for (uint channel = 0u; channel < channels; ++channel) store(index, channel, gathered[channel]);
 }

@@ -24,6 +24,7 @@ Buffer brightest_sum(Graph& graph, const DeviceGrid& grid) {
     gated(graph.compute("indirect/lpv/injection/brightest_sum.comp")
               .loads("Sums", grid.sums)
               .updates("Brightest", brightest)
+              .fixes("channels", grid.channels)
               .push(grid.place),
           grid, gate_cells, grid.threads());
     return brightest;
@@ -39,7 +40,9 @@ void resolve(Graph& graph, const LpvParams& params, DeviceGrid& grid, Buffer& st
               .loads("Scale", grid.scale ? grid.scale : grid.sums)
               .loads("Brightest", brightest)
               .fixes("has_scale", grid.scale ? 1u : 0u)
+              .fixes("shows_injected", params.self_light == self_uninjected ? 0u : 1u)
               .fixes("cell_storage", grid.storage)
+              .fixes("channels", grid.channels)
               .push(ResolvePush{.grid = grid.place, .fixed_one = float(grid.fixed_one)}),
           grid, gate_cells, grid.threads());
 }
@@ -47,7 +50,7 @@ void resolve(Graph& graph, const LpvParams& params, DeviceGrid& grid, Buffer& st
 }  // namespace
 
 ComputeStep fix_faces(ComputeStep builder, const LpvParams& params) {
-    return builder.fixes("propagation", params.propagation).fixes("faces", params.faces);
+    return builder.fixes("propagation", params.propagation).fixes("faces", params.faces).fixes("lobes", params.lobes);
 }
 
 std::uint32_t iterations(const LpvParams& params, const DeviceGrid& grid) {
@@ -75,6 +78,7 @@ void propagate(Graph& graph, const FrameImages& frame, const LpvParams& params, 
                   .stores("After", next)
                   .updates("Total", grid.total)
                   .fixes("cell_storage", grid.storage)
+                  .fixes("channels", grid.channels)
                   .push(grid.place),
               grid, gate_first_step + step, grid.threads());
         std::swap(now, next);

@@ -47,15 +47,19 @@ Faces faces_of(uint rule) {
 
 const std::array<Faces, 2> both_faces = {faces_of(faces_centre), faces_of(faces_exact)};
 
+/// Direction of the light that a side face takes: along the way, and out of the face. The middle of the source cell sees the
+/// middle of the face one cell ahead and half a cell aside.
+glm::dvec2 side_lobe(uint lobes) { return lobes == lobes_face ? glm::dvec2(0, 1) : glm::normalize(glm::dvec2(1, 0.5)); }
+
 /// The sum over the five faces in closed form, where none is clamped.
-glm::dvec4 arriving_linear(const glm::dvec4& source, const Travel& to, const Faces& faces) {
+glm::dvec4 arriving_linear(const glm::dvec4& source, const Travel& to, const Faces& faces, const glm::dvec2& lobe) {
     const double l0 = source.x, along = to.sign * source[to.axis + 1];
     const double far = faces.far_angle * harmonic0 * l0 + faces.far_along * harmonic1 * along;
-    const double all = far + 4 * (faces.side_angle * harmonic0 * l0 + faces.side_along * harmonic1 * along);
+    const double sides = 4 * (faces.side_angle * harmonic0 * l0 + faces.side_along * harmonic1 * along);
     // Opposite side faces differ by what the light across the way gives them.
-    glm::dvec4 result = source * (2 * faces.side_out * harmonic1 * lobe1 / pi);
-    result.x = all * lobe0 / pi;
-    result[to.axis + 1] = to.sign * far * lobe1 / pi;
+    glm::dvec4 result = source * (2 * faces.side_out * lobe.y * harmonic1 * lobe1 / pi);
+    result.x = (far + sides) * lobe0 / pi;
+    result[to.axis + 1] = to.sign * (far + lobe.x * sides) * lobe1 / pi;
     return result;
 }
 
@@ -71,13 +75,14 @@ std::array<double, 5> clamped_fluxes(const glm::dvec4& source, const Travel& to,
     return fluxes;
 }
 
-glm::dvec4 arriving_clamped(const glm::dvec4& source, const Travel& to, const Faces& faces) {
+glm::dvec4 arriving_clamped(const glm::dvec4& source, const Travel& to, const Faces& faces, const glm::dvec2& lobe) {
     const auto [far, first_low, first_high, second_low, second_high] = clamped_fluxes(source, to, faces);
+    const double sides = (first_low + first_high) + (second_low + second_high);
     glm::dvec4 result;
-    result.x = (far + ((first_low + first_high) + (second_low + second_high))) * lobe0 / pi;
-    result[to.axis + 1] = to.sign * far * lobe1 / pi;
-    result[(to.axis + 1) % 3 + 1] = (first_high - first_low) * lobe1 / pi;
-    result[(to.axis + 2) % 3 + 1] = (second_high - second_low) * lobe1 / pi;
+    result.x = (far + sides) * lobe0 / pi;
+    result[to.axis + 1] = to.sign * (far + lobe.x * sides) * lobe1 / pi;
+    result[(to.axis + 1) % 3 + 1] = lobe.y * (first_high - first_low) * lobe1 / pi;
+    result[(to.axis + 2) % 3 + 1] = lobe.y * (second_high - second_low) * lobe1 / pi;
     return result;
 }
 
@@ -112,7 +117,9 @@ glm::dvec4 received(const Step& step, const glm::uvec3& cell) {
 
 glm::dvec4 arriving(const glm::dvec4& source, const Travel& to, const PropagationRule& rule) {
     const Faces& faces = both_faces[rule.faces];
-    return rule.propagation == propagation_linear ? arriving_linear(source, to, faces) : arriving_clamped(source, to, faces);
+    const glm::dvec2 lobe = side_lobe(rule.lobes);
+    return rule.propagation == propagation_linear ? arriving_linear(source, to, faces, lobe)
+                                                  : arriving_clamped(source, to, faces, lobe);
 }
 
 double sent_share(const glm::dvec4& source, const PropagationRule& rule) {

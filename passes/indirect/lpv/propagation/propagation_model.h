@@ -18,10 +18,12 @@ struct Links {
     std::vector<glm::dvec3> open = {};  ///< by cell_index(): shares 0 to 1 along x, y, z; empty: everything passes
 };
 
-/// What a propagating face may hold (propagation_*), and how it is evaluated (faces_*).
+/// What a propagating face may hold (propagation_*), how it is evaluated (faces_*), and which way the light goes that it takes
+/// (lobes_*).
 struct PropagationRule {
     uint propagation = propagation_linear;
     uint faces = faces_centre;
+    uint lobes = lobes_face;
 };
 
 /// What arrives at a neighbor's cell of the light in a cell: the neighbor lies along +axis (sign 1) or -axis (sign -1).

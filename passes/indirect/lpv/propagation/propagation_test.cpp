@@ -23,20 +23,22 @@ constexpr PropagationRule all_rules[] = {linear_center,
                                          {propagation_clamped, faces_centre},
                                          {propagation_clamped, faces_exact},
                                          {propagation_energy_true, faces_centre},
-                                         {propagation_energy_true, faces_exact}};
+                                         {propagation_energy_true, faces_exact},
+                                         {propagation_linear, faces_centre, lobes_flow},
+                                         {propagation_energy_true, faces_exact, lobes_flow}};
 
 struct FaceAngles {
     double far = 4 * std::asin(0.1), side = (2 * pi / 3 - 4 * std::asin(0.1)) / 4;
 };
 
 /// The table of docs/algorithms/lighting.md 5.4, face by face.
-dvec4 face_by_face(const dvec4& source, const dvec3& way, double least_flux) {
+dvec4 face_by_face(const dvec4& source, const dvec3& way, double least_flux, uint lobes = lobes_face) {
     dvec4 sum(0);
     const auto add = [&](double angle, const dvec3& towards, const dvec3& normal) {
         const double y0 = 0.5 / std::sqrt(pi), y1 = std::sqrt(3 / pi) / 2;
         const double intensity = source.x * y0 + y1 * (source.y * towards.x + source.z * towards.y + source.w * towards.z);
         const double flux = std::max(angle * intensity, least_flux);
-        sum += flux / pi * dvec4(std::sqrt(pi) / 2, std::sqrt(pi / 3) * normal);
+        sum += flux / pi * dvec4(std::sqrt(pi) / 2, std::sqrt(pi / 3) * (lobes == lobes_face ? normal : towards));
     };
     add(FaceAngles().far, way, way);
     for (glm::length_t axis = 0; axis < 3; ++axis)
@@ -109,6 +111,10 @@ TEST(PropagatedLight, IsTheSumOverFiveFaces) {
             EXPECT_COEFFICIENTS(arriving(source, way, linear_center), face_by_face(source, direction_of(way), -INFINITY), 1e-12);
             EXPECT_COEFFICIENTS(arriving(source, way, {propagation_clamped, faces_centre}),
                                 face_by_face(source, direction_of(way), 0), 1e-12);
+            EXPECT_COEFFICIENTS(arriving(source, way, {propagation_linear, faces_centre, lobes_flow}),
+                                face_by_face(source, direction_of(way), -INFINITY, lobes_flow), 1e-12);
+            EXPECT_COEFFICIENTS(arriving(source, way, {propagation_clamped, faces_centre, lobes_flow}),
+                                face_by_face(source, direction_of(way), 0, lobes_flow), 1e-12);
         }
     }
 }

@@ -17,9 +17,4 @@ float share_before(uint cell, uint channel) {
     return uintBitsToFloat(before[share_word(cell, channel)]);
 }
 
-StepCell step_before(uint cell) {
-    return StepCell(LightCell(before_channel(cell, 0u), before_channel(cell, 1u), before_channel(cell, 2u)),
-                    vec3(share_before(cell, 0u), share_before(cell, 1u), share_before(cell, 2u)));
-}
-
 #endif

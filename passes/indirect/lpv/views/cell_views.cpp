@@ -53,6 +53,7 @@ Image spheres(Graph& graph, const FrameImages& frame, const std::vector<DeviceGr
         graph.compute("indirect/lpv/views/spheres.comp")
             .loads("Total", light[i])
             .fixes("cell_storage", grids[i].storage)
+            .fixes("channels", grids[i].channels)
             .updates("Places", places)
             .updates("picture", picture.color)
             .updates("nearest", picture.nearest)

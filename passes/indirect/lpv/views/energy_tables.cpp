@@ -31,6 +31,7 @@ public:
             .updates("Lost", lost_)
             .loads("Total", grid.total)
             .fixes("cell_storage", grid.storage)
+            .fixes("channels", grid.channels)
             .push(EnergyPush{.grid = grid.place, .step = row})
             .groups({1, 1, 1});
     }
