@@ -50,6 +50,10 @@ struct Frame {
     Film film;
 
     std::vector<StageChoice> recorded_with;
+
+    /// What all radiance above has been multiplied by for the replay (passes/scene/pre_exposure.h), and the base color of unlit
+    /// materials has not. 1 in a recorded frame; no part of a capture.
+    double pre_exposure = 1;
 };
 
 }  // namespace strata

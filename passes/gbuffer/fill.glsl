@@ -37,7 +37,7 @@ MaterialPoint visible_point() {
 
 // Radiance that no light causes; an unlit surface's color is its radiance. a = 1 says that there is a surface.
 vec4 emitted(MaterialPoint m) {
-    const vec3 own = m.lighting_model == model_unlit ? m.base_color + m.emissive : m.emissive;
+    const vec3 own = m.lighting_model == model_unlit ? m.base_color * view.pre_exposure + m.emissive : m.emissive;
     return vec4(min(own, largest_half), 1.0);
 }
 

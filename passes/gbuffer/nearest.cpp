@@ -8,8 +8,8 @@
 namespace strata::gbuffer {
 namespace {
 
-glm::dvec4 emitted(const SurfacePoint& p) {
-    return {p.model == LightingModel::unlit ? p.base_color + p.emissive : p.emissive, 1};
+glm::dvec4 emitted(const Frame& frame, const SurfacePoint& p) {
+    return {p.model == LightingModel::unlit ? p.base_color * frame.pre_exposure + p.emissive : p.emissive, 1};
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ ImageSet surface_images(const Frame& frame, const std::vector<NearestSurface>& s
         normal.texels[i] = glm::dvec4(s.point.normal, s.point.position.z);
         color.texels[i] = glm::dvec4(s.point.base_color, s.point.roughness);
         material.texels[i] = {double(s.point.model), s.point.metallic, s.point.occlusion, place_code(s.offset)};
-        emission.texels[i] = emitted(s.point);
+        emission.texels[i] = emitted(frame, s.point);
         depth.texels[i] = {s.depth, 0, 0, 0};
     }
     ImageSet images{{"surface_normal", normal},

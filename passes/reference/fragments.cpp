@@ -42,8 +42,8 @@ struct LitFrame {
 
 // Radiance a transparent mesh reflects with blockers and without shadows; unlit surfaces show their base color.
 glm::dvec3 lit(const LitFrame& scene, const SurfacePoint& surface) {
-    if (surface.model == LightingModel::unlit) return surface.base_color;
     const Frame& frame = scene.frame;
+    if (surface.model == LightingModel::unlit) return surface.base_color * frame.pre_exposure;
     glm::dvec3 sum = hemisphere_light(frame, surface);
     const Light sun = sun_light(frame);
     if (sun.intensity != glm::vec3(0)) sum += reflected(frame, surface, sun);
@@ -234,6 +234,15 @@ bool FragmentLists::undecided(std::uint32_t x, std::uint32_t y, std::uint32_t sa
 std::uint64_t FragmentLists::total() const {
     return std::accumulate(rows_.begin(), rows_.end(), std::uint64_t{0},
                            [](std::uint64_t sum, const FragmentRow& row) { return sum + row.fragments.size(); });
+}
+
+void FragmentLists::scale_light(double factor) {
+    if (factor == 1) return;
+    for (FragmentRow& row : rows_)
+        for (Fragment& fragment : row.fragments) {
+            fragment.color *= factor;
+            fragment.emission *= factor;
+        }
 }
 
 std::uint32_t FragmentLists::deepest() const {

@@ -143,6 +143,8 @@ public:
     std::uint64_t total() const;
     /// The most fragments of one sample.
     std::uint32_t deepest() const;
+    /// Multiplies radiance.
+    void scale_light(double factor);
 
 private:
     friend FragmentLists transparent_fragments(const Frame&, const ReferenceImage&, PixelRows, LightAround);

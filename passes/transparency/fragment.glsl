@@ -71,11 +71,13 @@ vec3 from_volumes_around(vec3 color) {
     return clamp(color, 0.0, 1.0) * volume_light_at(LitPlace(view.to_world * position_here(), vec3(0.0)));
 }
 
+vec3 unlit(MaterialPoint m) { return m.base_color * view.pre_exposure; }
+
 // All lights as their blockers let them through, without shadows, sky and ground, and light volumes; an unlit material is its own
 // light.
 vec3 lit(MaterialPoint m) {
-    if (used_models == 1u << model_unlit) return m.base_color;  // by itself: a branch on constants alone, which leaves out what follows
-    if (m.lighting_model == model_unlit) return m.base_color;
+    if (used_models == 1u << model_unlit) return unlit(m);  // by itself: a branch on constants alone, which leaves out what follows
+    if (m.lighting_model == model_unlit) return unlit(m);
     vec3 sum = hemisphere_light(m);
     for (uint i = 0u; i < view.light_count; ++i)
         if (reached(lights[i], m)) sum += reflected(m, lights[i], light_features);

@@ -1,7 +1,6 @@
 // strata replay: every pass of the chosen frames again, headless; EXR, PNG and JSON.
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -116,10 +115,10 @@ Result<Run> run_once(Session& session, const Request& request, const ReplayArgum
     auto runs = session.time(std::span(&request, 1), options.timed);
     if (!runs) return runs.error();
     Run run = std::move(runs->front());
-    if (request.passes == Passes::not_read) return run;
-    auto passes = session.pass_images(request);
-    if (!passes) return passes.error();
-    run.passes = *std::move(passes);
+    auto looked_at = session.run(request);
+    if (!looked_at) return looked_at.error();
+    run.passes = std::move(looked_at->passes);
+    run.light_faults = std::move(looked_at->light_faults);
     return run;
 }
 
@@ -154,6 +153,7 @@ Result<Replayed> replay_frame(Session& session, const Request& request, const Re
     if (!run) return run.error();
     Replayed replayed{.run = *std::move(run)};
     for (const std::string& note : replayed.run.notes) to_stderr("strata: {}\n", note);
+    for (const LightFault& fault : replayed.run.light_faults) to_stderr("strata: {}\n", sentence(fault));
     if (const auto done = check_repeats(session, request, replayed.run, options.repeat); !done) return done.error();
     if (options.repeat > 1)
         to_stderr("frame {}: {} repeats, every image of every pass is bit for bit the same\n", request.variant.frame,
@@ -240,34 +240,18 @@ Result<void> check_outputs(const Request& request, const Run& run, const ReplayA
     return fail(Fault::usage, "frame.no_output", "frame {frame} has no {output}", request.variant.frame, missing);
 }
 
+/// Fails where light is no number.
+Result<void> check_light(const Request& request, const Run& run) {
+    const auto fault = std::ranges::find(run.light_faults, LightFault::Kind::not_finite, &LightFault::kind);
+    if (fault == run.light_faults.end()) return {};
+    return fail(Fault::over_tolerance, "replay.not_finite", "frame {frame}: {light}", request.variant.frame, sentence(*fault));
+}
+
 Result<void> check_supported(const Request& request, const Run& run) {
     if (run.not_supported.empty()) return {};
     const UnsupportedChoice& first = run.not_supported.front();
     return fail(Fault::over_tolerance, "replay.not_supported", "frame {frame}: {technique} cannot do {feature}",
                 request.variant.frame, first.technique, first.reason);
-}
-
-/// Which pixels of the picture are infinite or NaN; nothing where all are finite.
-std::string pixels_not_finite(const Run& run) {
-    const auto display = run.images.find("display");
-    if (display == run.images.end()) return {};
-    const Extent extent = display->second.shape.extent;
-    std::size_t count = 0;
-    std::string first;
-    for (std::uint32_t y = 0; y < extent.height; ++y)
-        for (std::uint32_t x = 0; x < extent.width; ++x) {
-            const glm::dvec4 color = texel(display->second, x, y);
-            if (std::isfinite(color.x) && std::isfinite(color.y) && std::isfinite(color.z)) continue;
-            if (count++ == 0) first = fmt::format("x {}, y {} ({}, {}, {})", x, y, color.x, color.y, color.z);
-        }
-    if (count == 0) return {};
-    return fmt::format("{} of the picture {} infinite or NaN, the first at {}, after step {}", plural(count, "pixel"),
-                       count == 1 ? "is" : "are", first, run.steps.empty() ? "none" : run.steps.back().name);
-}
-
-Result<void> check_finite(const Request& request, const std::string& pixels) {
-    if (pixels.empty()) return {};
-    return fail(Fault::over_tolerance, "replay.not_finite", "frame {frame}: {pixels}", request.variant.frame, pixels);
 }
 
 /// "811229 fragments, 187 deepest": what the technique of a choice line counted.
@@ -323,6 +307,7 @@ Result<void> replay(const ReplayArguments& options) {
 
     const bool passes = options.repeat > 1 || options.printed.json || known;
     request->once = true;
+    request->light = LightCheck::on;
     request->passes = passes && options.until.empty() ? Passes::read_back : Passes::not_read;
     ordered_json all = document(head_of(**session, options));
     all["frames"] = ordered_json::array();
@@ -342,10 +327,8 @@ Result<void> replay(const ReplayArguments& options) {
         if (options.timed > 0 && is_text) print_times(replayed->run);
         if (options.printed.csv) steps.push_back(steps_of(replayed->run, request->variant.frame));
         auto now = judge(*request, *replayed, options);
-        const std::string not_finite = pixels_not_finite(replayed->run);
-        if (!not_finite.empty()) to_stderr("strata: warning: frame {}: {}\n", request->variant.frame, not_finite);
         if (now && options.strict) now = check_supported(*request, replayed->run);
-        if (now && options.strict) now = check_finite(*request, not_finite);
+        if (now && options.strict) now = check_light(*request, replayed->run);
         if (now) now = check_outputs(*request, replayed->run, options);
         if (!now && (judged || now.error().fault < judged.error().fault)) judged = now;
         all["frames"].push_back(std::move(replayed->json));
@@ -392,7 +375,8 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
                    "replace built-in shaders by those in the passes/ folder of this folder; needs "
                    "glslangValidator");
     app.add_flag("--strict", options->strict,
-                 "exit code 1 instead of a warning if a technique does not support the frame or the picture is not finite");
+                 "exit code 1 instead of a warning if a technique does not support a feature of the frame, or if light is not "
+                 "finite");
     app.add_flag("--expect", options->expect, "exit code 6 if the capture has no expected results for a frame");
     app.add_flag("--no-expect", options->no_expect, "do not compare with the capture's expected results");
     return [options, &app] {

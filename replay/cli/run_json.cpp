@@ -7,6 +7,7 @@
 
 #include "passes/registry.h"
 #include "passes/stages.h"
+#include "passes/technique.h"
 
 namespace strata {
 namespace {
@@ -78,6 +79,16 @@ ordered_json json_of(const DebugView& view, const HostImage& image) {
     json["least"] = {least.x, least.y, least.z};
     json["mean"] = {mean.x, mean.y, mean.z};
     json["most"] = {most.x, most.y, most.z};
+    return json;
+}
+
+ordered_json json_of(const LightFault& fault) {
+    ordered_json json{{"pass", fault.pass},
+                      {"image", fault.image},
+                      {"is", fault.kind == LightFault::Kind::not_finite ? "not finite" : "cut off"},
+                      {"texels", fault.texels},
+                      {"first", {{"x", fault.first.x}, {"y", fault.first.y}}}};
+    if (fault.kind == LightFault::Kind::cut_off) json["limit"] = fault.limit;
     return json;
 }
 
@@ -153,6 +164,7 @@ ordered_json json_of(const DocumentHead& head, const Metadata& provenance, const
     for (const auto& [name, image] : run.images)
         if (const DebugView* view = find_view(name)) json["views"][name] = json_of(*view, image);
     for (const auto& [name, table] : run.tables) json["tables"][name] = json_of(table);
+    for (const LightFault& fault : run.light_faults) json["light_faults"].push_back(json_of(fault));
     for (const std::string& note : run.notes) json["notes"].push_back(note);
     json["image_bytes"] = run.image_bytes;
     json["buffer_bytes"] = run.buffer_bytes;

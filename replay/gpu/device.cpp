@@ -150,28 +150,38 @@ Result<DeviceInfo> choose(const std::vector<DeviceInfo>& devices, const std::str
 
 }  // namespace
 
-Result<std::vector<DeviceInfo>> list_devices() {
-    const auto instance = Instance::create(Validation::off);
-    if (!instance) return instance.error();
+namespace {
+
+/// A driver without its hardware fails here, and the machine then has no device.
+Result<std::vector<vk::raii::PhysicalDevice>> physical_devices(const Instance& instance) {
     try {
-        return describe_all(instance->handle().enumeratePhysicalDevices());
+        return instance.handle().enumeratePhysicalDevices();
     } catch (const vk::SystemError& problem) {
         return fail(Fault::device_lacks, "device.cannot_list", "the devices of this machine cannot be listed: {reason}",
                     problem.what());
     }
 }
 
+}  // namespace
+
+Result<std::vector<DeviceInfo>> list_devices() {
+    const auto instance = Instance::create(Validation::off);
+    if (!instance) return instance.error();
+    return physical_devices(*instance).and_then([](auto& devices) { return describe_all(devices); });
+}
+
 Result<std::unique_ptr<Device>> Device::open(const DeviceChoice& choice) {
     auto instance = Instance::create(choice.validation ? Validation::on : Validation::off);
     if (!instance) return instance.error();
+    auto devices = physical_devices(*instance);
+    if (!devices) return devices.error();
     try {
-        auto devices = instance->handle().enumeratePhysicalDevices();
-        auto described = describe_all(devices);
+        auto described = describe_all(*devices);
         if (const auto left_out = leave_out(described, choice.without); !left_out) return left_out.error();
         auto chosen = strata::choose(described, choice.gpu);
         if (!chosen) return chosen.error();
         if (chosen->software) keep_freed_memory();
-        auto physical = std::move(devices[chosen->index]);
+        auto physical = std::move((*devices)[chosen->index]);
         return std::unique_ptr<Device>(
             std::make_unique<OpenedDevice>(*std::move(instance), std::move(physical), *chosen, choice.memory_budget));
     } catch (const vk::OutOfDeviceMemoryError& problem) {

@@ -57,7 +57,7 @@ std::vector<LegendLine> legend_lines(const TileWaves& waves, const GpuModel& mod
     const Extent extent = waves.picture.shape.extent;
     for (std::uint32_t i = 0; i < extent.width * extent.height; ++i)
         if (texel(waves.picture, i % extent.width, i / extent.width).x <= 0) {
-            lines.push_back({color_of(0, model), "nothing is shaded"});
+            lines.push_back({color_of(0, model), fmt::format("nothing is shaded")});  // of a literal GCC 12 warns
             break;
         }
     return lines;

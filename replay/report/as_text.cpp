@@ -148,7 +148,24 @@ std::string heading(const Report& report) {
     return text;
 }
 
+/// Rows of which the same is said are one line.
+std::string light_text(const Report& report) {
+    std::map<std::string, std::vector<const Measurement*>> by_faults;
+    for (const Measurement& row : report.rows)
+        if (std::string faults = light_faults(row); !faults.empty()) by_faults[std::move(faults)].push_back(&row);
+    std::string text;
+    for (const auto& [faults, rows] : by_faults)
+        text += fmt::format("   {}: {}\n", rows.size() == 1 ? short_label(*rows.front()) : plural(rows.size(), "row"), faults);
+    return text.empty() ? "" : "\nlight that images could not hold\n" + text;
+}
+
 }  // namespace
+
+std::string light_faults(const Measurement& row) {
+    std::string text;
+    for (const LightFault& fault : row.accuracy.light_faults) text += (text.empty() ? "" : "; ") + sentence(fault);
+    return text;
+}
 
 std::string implementation_doubt(const Measurement& row) {
     const Accuracy& accuracy = row.accuracy;
@@ -173,7 +190,7 @@ Page page_of(const Report& report) {
     }
     const bool has_ties = std::ranges::any_of(report.rows, &Measurement::is_tied);
     page.emplace_back(legends(report.rows) + std::string(has_ties ? tie_legend : "") + implementation_text(report) +
-                      mirrors_text(report) +
+                      light_text(report) + mirrors_text(report) +
                       best_rows(report.rows, standings(report.rows), ranking_name(report), report.time_unit) +
                       counters_text(report) + stopped + answer_text(report));
     return page;

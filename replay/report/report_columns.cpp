@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "passes/stages.h"
 #include "replay/report/variants.h"
 
 namespace strata {
@@ -129,7 +130,13 @@ ColumnsOfRows implementation() {
               .help = "why device and model or truth cannot be compared",
               .kind = CellKind::text,
               .shown = in_files},
-             [](const Row& row) { return cell_if_any(row.accuracy.incomparable); }}};
+             [](const Row& row) { return cell_if_any(row.accuracy.incomparable); }},
+            {{.key = "light_faults",
+              .title = "light faults",
+              .help = "images whose light is not finite, or that half floats cut off",
+              .kind = CellKind::text,
+              .shown = in_files},
+             [](const Row& row) { return cell_if_any(light_faults(row)); }}};
 }
 
 ColumnsOfRows times(const Report& report) {

@@ -39,6 +39,7 @@ ViewRecord view_record(const Frame& frame) {
         .samples = v.samples,
         .near = v.near,
         .exposure = v.exposure,
+        .pre_exposure = static_cast<float>(frame.pre_exposure),
         .white = frame.film.white,
         .background = frame.background,
         .fog_density = frame.fog.density,

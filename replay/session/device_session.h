@@ -80,11 +80,13 @@ private:
         std::vector<std::uint64_t> keys;  ///< of the passes before (PassKeys: the frame is in each); empty: never the same again
         ImageSet images;
         std::optional<FragmentLists> fragments;
+        std::vector<LightFault> light_faults;
     };
     /// The outputs of a stage as its technique left them; found_ is what it found.
     struct Inspected {
         Choice choice;
         ImageSet result;
+        std::vector<LightFault> light_faults;
     };
     /// Shaders compiled from a folder; those of the library stand in for the ones built in.
     struct ShaderSet {
@@ -111,6 +113,16 @@ private:
     /// What is known of a run that executes everything, before any run.
     Result<Run> plan_run(const Request&);
     Result<Run> run_with_passes(const Request&);
+    /// An image of light that a pass leaves, and its place among the peeks of a run.
+    struct LightPeek {
+        std::size_t pass = 0;
+        std::string image;
+        std::size_t peek = 0;
+    };
+    /// Adds peeks at what every pass leaves of light, as far as the run gets.
+    static std::vector<LightPeek> peek_at_light(const Declaration&, RunOptions&);
+    /// Looks for light that a pass could not hold.
+    void check_light(const Declaration&, std::size_t pass, std::string_view image, const HostImage&, Run&) const;
 
     /// Loads the frame's variant when it is not the current one.
     Result<void> load_variant(const FrameVariant&);
@@ -135,6 +147,10 @@ private:
     template <typename Action>
     std::invoke_result_t<Action> failures_as_errors(Action);
     Result<Execution> execute(const Declaration&, RunOptions);
+    /// Of the loaded frame.
+    double pre_exposure() const { return loaded_->frame.pre_exposure; }
+    /// An image of the loaded frame in the recorded unit of light.
+    HostImage as_recorded(std::string_view name, HostImage) const;
     /// What is known of a run after it.
     Run finished(const Declaration&, const Execution&, std::optional<std::size_t> until = {});
     void remember(const Declaration&, const Execution&);
@@ -152,7 +168,8 @@ private:
     std::set<std::uint64_t> remembered_;  ///< keys of buffers that are there
     RunTimes times_;                      ///< of the latest request
     std::optional<Found> found_;
-    std::optional<FragmentLists> row_fragments_;  ///< of the latest row_fragments()
+    /// Of the latest row_fragments(), or of transparent_fragments() where the frame's unit of light is not the recorded one.
+    std::optional<FragmentLists> recorded_fragments_;
     std::optional<BlendRounding> rounding_;
     std::vector<std::unique_ptr<ShaderSet>> shader_sets_;  ///< the last one is used; plans that were handed out point into others
     std::stop_token stop_;

@@ -11,6 +11,7 @@
 #include "replay/session/describe_run.h"
 #include "replay/session/device_session.h"
 #include "replay/session/judgment.h"
+#include "replay/session/light_unit.h"
 #include "replay/session/until_stopped.h"
 
 namespace strata {
@@ -127,7 +128,7 @@ Result<HostImage> DeviceSession::peek(const Request& request, std::size_t step, 
     if (!last_write(plan, handle, step + 1))
         return fail(Fault::usage, "session.not_written_yet", "'{image}' is not written yet after step {step}", image, step);
     return execute(*declared, {.until = step, .peeks = {{step, handle}}}).and_then([&](auto& execution) {
-        return std::move(execution.peeked.front());
+        return as_recorded(image, std::move(execution.peeked.front()));
     });
 }
 
@@ -169,11 +170,22 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
     if (!execution) return execution.error();
     remember(d, *execution);
     if (!is_known) {
-        found_.emplace(Found{std::move(keys), {}, {}});
-        for (const PeekedImage& image : before) found_->images.emplace(image.name, in_double(execution->peeked[image.peek]));
+        found_.emplace(Found{std::move(keys), {}, {}, {}});
+        for (const PeekedImage& image : before) {
+            found_->images.emplace(image.name, in_double(execution->peeked[image.peek]));
+            std::ranges::move(light_faults(image.name, execution->peeked[image.peek], pre_exposure()),
+                              std::back_inserter(found_->light_faults));
+        }
+        for (LightFault& fault : found_->light_faults) fault.pass = "the stages before it";
     }
-    Inspected inspected{.choice = d.choices.at(stage), .result = {}};
-    for (const PeekedImage& image : result) inspected.result.emplace(image.name, in_double(execution->peeked[image.peek]));
+    Inspected inspected{.choice = d.choices.at(stage), .result = {}, .light_faults = found_->light_faults};
+    for (const PeekedImage& image : result) {
+        inspected.result.emplace(image.name, in_double(execution->peeked[image.peek]));
+        for (LightFault& fault : light_faults(image.name, execution->peeked[image.peek], pre_exposure())) {
+            fault.pass = name(stage);
+            inspected.light_faults.push_back(std::move(fault));
+        }
+    }
     return inspected;
 }
 
@@ -196,14 +208,41 @@ Result<Run> DeviceSession::run_with_passes(const Request& request) {
     const auto execution = execute(d, peeks.options());
     if (!execution) return execution.error();
     Run run = finished(d, *execution);
-    for (const PeekedImage& image : outputs) run.images.emplace(image.name, execution->peeked[image.peek]);
+    for (const PeekedImage& image : outputs)
+        run.images.emplace(image.name, as_recorded(image.name, execution->peeked[image.peek]));
     for (const PeekedImage& table : tables)
         run.tables.emplace(table.name, table_of(*d.tables.at(table.name).first, execution->peeked[table.peek]));
     for (std::size_t i = 0; i < of_passes.size(); ++i) {
         run.passes.push_back(describe_pass(d, d.frame.passes[i]));
-        for (const PeekedImage& image : of_passes[i]) run.passes.back().images.emplace(image.name, execution->peeked[image.peek]);
+        for (const PeekedImage& image : of_passes[i]) {
+            if (request.light == LightCheck::on) check_light(d, i, image.name, execution->peeked[image.peek], run);
+            run.passes.back().images.emplace(image.name, as_recorded(image.name, execution->peeked[image.peek]));
+        }
     }
     return run;
+}
+
+std::vector<DeviceSession::LightPeek> DeviceSession::peek_at_light(const Declaration& d, RunOptions& options) {
+    Peeks peeks;
+    std::vector<LightPeek> light;
+    for (std::size_t pass = 0; pass < d.frame.passes.size(); ++pass)
+        for (PeekedImage& image : peek_outputs(d, pass, peeks))
+            if (holds_light(image.name)) light.push_back({pass, std::move(image.name), image.peek});
+    const std::vector<Peek> all = peeks.options().peeks;
+    std::erase_if(light, [&](const LightPeek& at) { return options.until && all[at.peek].step > *options.until; });
+    for (LightPeek& at : light) {
+        options.peeks.push_back(all[at.peek]);
+        at.peek = options.peeks.size() - 1;
+    }
+    return light;
+}
+
+void DeviceSession::check_light(const Declaration& d, std::size_t pass, std::string_view name, const HostImage& image,
+                                Run& run) const {
+    for (LightFault& fault : light_faults(name, image, pre_exposure())) {
+        fault.pass = describe_pass(d, d.frame.passes[pass]).label;
+        run.light_faults.push_back(std::move(fault));
+    }
 }
 
 Result<std::vector<StepImages>> DeviceSession::step_images(const Request& request, Stage stage) {
@@ -227,8 +266,10 @@ Result<std::vector<StepImages>> DeviceSession::step_images(const Request& reques
     }
     auto execution = execute(*declared, options);
     if (!execution) return execution.error();
-    for (std::size_t i = 0; i < places.size(); ++i)
-        steps[places[i]].images.emplace(plan.images[options.peeks[i].image.id].name, std::move(execution->peeked[i]));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const std::string& image = plan.images[options.peeks[i].image.id].name;
+        steps[places[i]].images.emplace(image, as_recorded(image, std::move(execution->peeked[i])));
+    }
     return steps;
 }
 
@@ -252,7 +293,8 @@ Result<std::vector<StepImages>> DeviceSession::pixel_steps(const Request& reques
         const Peek& peek = options.peeks[i];
         const Step& step = plan.steps[peek.step].step;
         if (steps.empty() || steps.back().step != peek.step) steps.push_back({peek.step, plan.scopes[step.scope], step.name, {}});
-        steps.back().images.emplace(plan.images[peek.image.id].name, std::move(execution->peeked[i]));
+        const std::string& image = plan.images[peek.image.id].name;
+        steps.back().images.emplace(image, as_recorded(image, std::move(execution->peeked[i])));
     }
     return steps;
 }
@@ -294,6 +336,7 @@ Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {
     }
     leave_out_sides(loaded_->frame, device().snap_steps, images);
     drop_large_fragments(memo_budget_bytes);
+    scale_light(images, 1 / pre_exposure());
     return images;
 }
 
@@ -319,13 +362,15 @@ Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Again
     }
     const auto rounding = against == Against::truth ? Result(BlendRounding()) : this->rounding();
     if (!rounding) return rounding.error();
+    ImageSet stored_truth;
+    if (truth && pre_exposure() != 1) scale_light(stored_truth = *truth, pre_exposure());
     Accuracy accuracy = judge_stage({.frame = loaded_->frame,
                                      .features = loaded_->features,
                                      .choice = inspected->choice,
                                      .before = found_->images,
                                      .result = inspected->result,
                                      .against = against,
-                                     .truth = truth,
+                                     .truth = truth && pre_exposure() != 1 ? &stored_truth : truth,
                                      .fragments = &found_->fragments,
                                      .rounding = *rounding,
                                      .snap_steps = device().snap_steps,
@@ -335,6 +380,8 @@ Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Again
         found_->fragments.reset();  // rows may be missing
         return on.error();
     }
+    scale_light(accuracy, 1 / pre_exposure());
+    accuracy.light_faults = inspected->light_faults;
     return accuracy;
 }
 
@@ -349,7 +396,10 @@ Result<const FragmentLists*> DeviceSession::transparent_fragments(const Request&
             loaded_->frame, depth != found_->images.end() ? depth->second : ReferenceImage(view.width, view.height, view.samples),
             {}, indirect::volume_light(loaded_->frame, found_->images));
     }
-    return &*found_->fragments;
+    if (pre_exposure() == 1) return &*found_->fragments;
+    recorded_fragments_ = found_->fragments;
+    recorded_fragments_->scale_light(1 / pre_exposure());
+    return &*recorded_fragments_;
 }
 
 Result<const FragmentLists*> DeviceSession::row_fragments(const Request& request, std::uint32_t y) {
@@ -364,10 +414,11 @@ Result<const FragmentLists*> DeviceSession::row_fragments(const Request& request
     for (const auto& [name, image] : run->images) before.emplace(name, in_double(image));
     const auto depth = before.find("depth_layers");
     const View& view = loaded_->frame.view;
-    row_fragments_ = strata::transparent_fragments(
+    recorded_fragments_ = strata::transparent_fragments(
         loaded_->frame, depth != before.end() ? depth->second : ReferenceImage(view.width, view.height, view.samples),
         {y, y == ~0u ? y : y + 1}, indirect::volume_light(loaded_->frame, before));
-    return &*row_fragments_;
+    recorded_fragments_->scale_light(1 / pre_exposure());
+    return &*recorded_fragments_;
 }
 
 }  // namespace strata

@@ -14,6 +14,7 @@
 #include "passes/technique.h"
 #include "replay/measure/flip.h"
 #include "replay/plural.h"
+#include "replay/session/light_unit.h"
 #include "replay/session/until_stopped.h"
 
 namespace strata {
@@ -260,6 +261,15 @@ void leave_out_sides(const Frame& frame, std::uint32_t device_snap_steps, ImageS
         for (std::size_t i = 0; i < near.size(); ++i)
             if (const std::size_t texel = image.layers == view.samples ? i : i % pixels; near[i]) image.undecided[texel] = true;
     }
+}
+
+void scale_light(Accuracy& accuracy, double factor) {
+    for (std::vector<Metric>* metrics : {&accuracy.technique_errors, &accuracy.touched})
+        for (Metric& metric : *metrics)
+            if (metric.unit == "radiance") metric.value *= factor;
+    if (!holds_radiance(accuracy.worst.image)) return;
+    for (glm::dvec4* texel : {&accuracy.worst.got, &accuracy.worst.wanted})
+        *texel = glm::dvec4(glm::dvec3(*texel) * factor, texel->w);
 }
 
 ImageSet run_model(const JudgedStage& stage) {

@@ -36,6 +36,8 @@ void leave_out_sides(const Frame&, std::uint32_t device_snap_steps, ImageSet&);
 /// that differ, undecided ones among them; nothing where no decided one does.
 std::optional<double> keep_touched(ReferenceImage&, const ReferenceImage* before);
 
+/// Multiplies what is radiance: metrics and the worst texel.
+void scale_light(Accuracy&, double factor);
 /// Leaves out the texels of which a color channel is NaN in both images: that is no agreement. Their number.
 std::size_t leave_out_not_numbers(const ReferenceImage& got, ReferenceImage& wanted);
 /// Why nothing can be judged, where so many are all texels; `of` names them, "sample".

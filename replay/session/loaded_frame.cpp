@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capture_format/frame.h"
+#include "passes/scene/pre_exposure.h"
 
 namespace strata {
 
@@ -24,6 +25,7 @@ Result<std::unique_ptr<LoadedFrame>> load_frame(Frame recorded, const FrameVaria
         if (!std::isfinite(variant.eye.*axis.member))
             return fail(Fault::usage, "eye.not_a_number", "the eye's {axis} is not a number", axis.name);
     view = moved(view, variant.eye);
+    pre_expose(recorded, pre_exposure(recorded));
 
     auto loaded = std::make_unique<LoadedFrame>(variant, std::move(recorded));
     loaded->features = loaded->facts.features();

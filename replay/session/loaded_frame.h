@@ -18,7 +18,7 @@ struct LoadedFrame {
     ~LoadedFrame();
 
     FrameVariant variant;
-    Frame frame;
+    Frame frame;              ///< pre-exposed: Session gives radiance in the recorded unit
     SceneFacts facts{frame};  ///< made at first use, when textures are as the device can hold them
     Features features;
     std::vector<std::string> notes;

@@ -12,6 +12,7 @@
 #include "replay/scene/shrink_textures.h"
 #include "replay/session/describe_run.h"
 #include "replay/session/device_session.h"
+#include "replay/session/light_unit.h"
 #include "replay/session/session_on_device.h"
 
 namespace strata {
@@ -69,9 +70,12 @@ Result<Run> DeviceSession::run(const Request& request) {
         }
         options.until = *until;
     }
+    const bool checks_light = request.light == LightCheck::on && memory_budget_ == 0;
+    const std::vector<LightPeek> light = checks_light ? peek_at_light(d, options) : std::vector<LightPeek>();
     const auto execution = execute(d, options);
     if (!execution) return execution.error();
     Run run = finished(d, *execution, options.until);
+    for (const LightPeek& at : light) check_light(d, at.pass, at.image, execution->peeked[at.peek], run);
     if (options.until) memo_.drop_unfilled();
     else remember(d, *execution);
     return run;
@@ -80,7 +84,10 @@ Result<Run> DeviceSession::run(const Request& request) {
 Result<Run> DeviceSession::run_from(const Request& request, Stage stage, const ImageSet& outputs) {
     if (const auto loaded = load_variant(request.variant); !loaded) return loaded.error();
     const Sources sources{*loaded_, scene_, device(), shaders()};
-    const auto declared = failures_as_errors([&] { return declare_from(request, sources, stage, outputs); });
+    ImageSet stored;
+    if (pre_exposure() != 1) scale_light(stored = outputs, pre_exposure());
+    const ImageSet& given = pre_exposure() == 1 ? outputs : stored;
+    const auto declared = failures_as_errors([&] { return declare_from(request, sources, stage, given); });
     if (!declared) return declared.error();
     const auto uploaded = failures_as_errors([&]() -> Result<void> {
         for (const auto& [id, image] : declared->given) {
@@ -261,6 +268,7 @@ Run DeviceSession::finished(const Declaration& d, const Execution& execution, st
     run.counters = run_counters(d, execution, until);
     run.not_counted = not_counted(d, until);
     run.images = images_of(d, execution);
+    for (auto& [name, image] : run.images) image = as_recorded(name, std::move(image));
     run.tables = tables_of(d, execution);
     run.notes = loaded_->notes;
     run.not_supported = not_supported(d, loaded_->features);
@@ -279,6 +287,10 @@ Run DeviceSession::finished(const Declaration& d, const Execution& execution, st
     run.memory.peak_allocated = memory.peak_allocated;
     run.memory.host_peak = host_peak_bytes();
     return run;
+}
+
+HostImage DeviceSession::as_recorded(std::string_view name, HostImage image) const {
+    return scaled_light(name, std::move(image), 1 / pre_exposure());
 }
 
 void DeviceSession::remember(const Declaration& d, const Execution& execution) {

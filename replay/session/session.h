@@ -25,6 +25,7 @@
 #include "replay/session/choices.h"
 #include "replay/session/counter_record.h"
 #include "replay/session/frame_variant.h"
+#include "replay/session/light_check.h"
 #include "replay/session/memory_need.h"
 #include "replay/session/skipped_stage.h"
 
@@ -36,6 +37,9 @@ struct Frame;         // capture_format/frame.h
 
 /// Whether a run brings back what every pass gave (Run::passes). Then every pass is executed, whatever the memo holds.
 enum class Passes { not_read, read_back };
+/// Whether a run looks for light that it could not hold (Run::light_faults). Images of light are read back for it, but not under
+/// a memory budget.
+enum class LightCheck { off, on };
 
 /// What to replay and what to bring back.
 struct Request {
@@ -45,7 +49,8 @@ struct Request {
         "display"};                    ///< names of frame_images.h, or "stage/technique:view" debug views and tables
     std::string until;                 ///< last step to run: part of its name; empty: all
     Passes passes = Passes::not_read;  ///< not with `until`
-    bool once = false;                 ///< nothing is kept for later runs that share stages with this one
+    LightCheck light = LightCheck::off;
+    bool once = false;  ///< nothing is kept for later runs that share stages with this one
     friend bool operator==(const Request&, const Request&) = default;
 };
 
@@ -118,9 +123,10 @@ struct Run {
     RunMemory memory;
     RunTimes host_ms;
     std::size_t passes_executed = 0, passes_from_memo = 0;
-    std::size_t pipelines_created = 0;  ///< during this run
-    std::vector<std::string> notes;     ///< what had to be reduced to fit the device; shaders that are not those built in
-    std::vector<PassImages> passes;     ///< with Passes::read_back, in the order of the frame
+    std::size_t pipelines_created = 0;     ///< during this run
+    std::vector<std::string> notes;        ///< what had to be reduced to fit the device; shaders that are not those built in
+    std::vector<LightFault> light_faults;  ///< with LightCheck::on, by pass in the order of the frame
+    std::vector<PassImages> passes;        ///< with Passes::read_back, in the order of the frame
 };
 
 /// What a step of the plan wrote, read back right after it.
@@ -149,8 +155,9 @@ struct Accuracy {
     double model_rmse = 0, model_worst = 0;  ///< relative, see Tolerance
     std::size_t compared = 0, undecided = 0, trivial = 0;  ///< texels
     WorstTexel worst;
-    std::string not_supported;  ///< why there is no answer, where the technique cannot do the frame
-    std::string incomparable;   ///< why the result and its model or truth cannot be compared; those errors are infinite
+    std::vector<LightFault> light_faults;  ///< of the stage's outputs, and of the images it found
+    std::string not_supported;             ///< why there is no answer, where the technique cannot do the frame
+    std::string incomparable;  ///< why the result and its model or truth cannot be compared; those errors are infinite
 };
 
 /// What Session::reload_shaders did.

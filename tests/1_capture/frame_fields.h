@@ -48,7 +48,8 @@ auto fields(Is<Film> auto& v) { auto& [a, b, c] = v; return std::tie(a, b, c); }
 auto fields(Is<Setting> auto& v) { auto& [a, b] = v; return std::tie(a, b); }
 auto fields(Is<StageChoice> auto& v) { auto& [a, b, c] = v; return std::tie(a, b, c); }
 auto fields(Is<Frame> auto& v) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u] = v;
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, pre_exposure] = v;
+    static_cast<void>(pre_exposure);  // of the replay, and no part of a capture
     return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u);
 }
 // clang-format on

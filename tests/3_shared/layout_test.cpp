@@ -43,6 +43,7 @@ std::vector<Record> view_records() {
               {"samples", offsetof(V, samples)},
               {"near", offsetof(V, near)},
               {"exposure", offsetof(V, exposure)},
+              {"pre_exposure", offsetof(V, pre_exposure)},
               {"white", offsetof(V, white)},
               {"background", offsetof(V, background)},
               {"fog_density", offsetof(V, fog_density)},

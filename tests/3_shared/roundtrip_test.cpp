@@ -55,15 +55,17 @@ TEST(RoundTrip, ALightArrivesMemberByMember) {
                             .clips = 29,
                             .shadow = 30,
                             .shadow_slots = 31,
-                            .visibility_layer = 32};
+                            .visibility_layer = 32,
+                            .window = 33};
     const auto seen =
         members_seen_by_a_shader(light, "LightRecord",
                                  "see(r.position); see(r.type); see(r.direction); see(r.range); see(r.intensity);"
                                  "see(r.source_radius); see(r.axis_u); see(r.cos_inner); see(r.cos_outer);"
                                  "see(r.tan_half); see(r.half_extent); see(r.texture); see(r.features);"
                                  "see(r.first_blocker); see(r.blockers); see(r.first_portal); see(r.portals);"
-                                 "see(r.first_clip); see(r.clips); see(r.shadow); see(r.shadow_slots); see(r.visibility_layer);");
-    ASSERT_EQ(seen.size(), 32u);
+                                 "see(r.first_clip); see(r.clips); see(r.shadow); see(r.shadow_slots); see(r.visibility_layer);"
+                                 "see(r.window);");
+    ASSERT_EQ(seen.size(), 33u);
     for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], static_cast<float>(i + 1)) << "member " << i;
 }
 

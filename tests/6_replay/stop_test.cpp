@@ -9,6 +9,7 @@
 #include "capture_format/frame.h"
 #include "passes/reference/estimated_image.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "replay/images/image_io.h"
 #include "replay/report/report.h"
 #include "replay/session/until_stopped.h"

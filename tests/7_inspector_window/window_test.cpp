@@ -13,6 +13,7 @@
 #include "tests/7_inspector_window/drop_file.h"
 #include "tests/7_inspector_window/pictures.h"
 #include "tests/7_tool/process.h"
+#include "tests/support/file_text.h"
 #include "tests/support/session.h"
 #include "tests/support/shader_folder.h"
 
@@ -316,6 +317,19 @@ TEST(InspectorWindow, ShowsOnTheScreenWhatASessionOfMouseAndKeysDoes) {
         fmt::print("{}: {:.0f} frames a second while something was computed, the slowest took {:.0f} ms\n", name,
                    seen.frames_per_second, seen.slowest_frame_ms);
     }
+}
+
+/// Xlib would end the process with exit code 1, which is that of a comparison that failed.
+TEST(InspectorWindow, SaysThatItsDisplayIsGone) {
+    ASSERT_EQ(strata("record three_panes -o panes.strata --size 64x36").code, 0);
+    pid_t inspector = 0;
+    {
+        const Screen screen(640, 480);
+        inspector = start(STRATA_BINARY_DIR "/strata", "inspect panes.strata", "said.txt");
+        screen.hand("search --sync --onlyvisible --name panes");
+    }
+    EXPECT_EQ(code_of(inspector), 5);
+    EXPECT_THAT(file_text(folder() / "said.txt"), HasSubstr("the display is gone"));
 }
 
 }  // namespace

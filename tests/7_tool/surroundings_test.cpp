@@ -145,6 +145,15 @@ TEST(Device, WithoutOneEveryVerbThatNeedsItSaysSoAndTheOthersGoOn) {
     EXPECT_EQ(strata_after(none, "record three_panes --gpu nvidia -o made.strata").code, 4);  // a device that was asked for
 }
 
+/// A driver whose hardware is missing fails where devices are listed.
+TEST(Device, WithADriverThatHasNoHardwareThereIsNone) {
+    const std::filesystem::path radeon = "/usr/share/vulkan/icd.d/radeon_icd.x86_64.json";
+    if (!std::filesystem::exists(radeon) || std::filesystem::exists("/dev/dri")) GTEST_SKIP() << "no driver without its hardware";
+    write_sound_capture();
+    const std::string without = fmt::format("export VK_ICD_FILENAMES={0} VK_DRIVER_FILES={0}", radeon.string());
+    EXPECT_THAT(strata_after(without, "-v replay sound.strata"), Refuses(4, "device.cannot_list"));
+}
+
 TEST(Device, ThatLacksAFeatureIsNamedWithIt) {
     write_sound_capture();
     for (const char* feature : {"dynamicRendering", "scalarBlockLayout", "independentBlend", "timelineSemaphore"}) {

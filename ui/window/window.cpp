@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdlib>
 #include <thread>
 
 #define GLFW_INCLUDE_VULKAN
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 
+#include "replay/standard_streams.h"
 #include "ui/window/imgui_layer_device.h"
 #include "ui/window/imgui_layer_target.h"
 #include "ui/window/input_queue.h"
@@ -21,10 +23,17 @@ namespace {
 constexpr int frames_after_event = 10;
 constexpr double busy_seconds = 1.0 / 60, resting_seconds = 0.5;
 
+/// Xlib ends the process by exit(1) where the X server goes away; nothing else does while GLFW is there.
+void end_without_display() {
+    if (glfwGetTimerFrequency() == 0) return;  // GLFW is not there
+    to_stderr("strata: the display is gone, and the window with it\n");
+    std::_Exit(static_cast<int>(Fault::device_failed));
+}
+
 /// GLFW is there while one of these is.
 class Glfw {
 public:
-    Glfw() : there_(glfwInit() == GLFW_TRUE) {}
+    Glfw() : there_(glfwInit() == GLFW_TRUE) { std::atexit(end_without_display); }
     Glfw(const Glfw&) = delete;
     Glfw& operator=(const Glfw&) = delete;
     ~Glfw() {

@@ -53,6 +53,13 @@ bool is_reached(vec2 at, float depth, uint direction) {
     return depth >= texelFetch(rain_map, ivec3(texel, direction), 0).r;
 }
 
+// The share of a direction's rain that falls on the front of a surface: all or nothing, but for directions that graze it, so that no
+// wall flickers. Of one direction the slope's weight decides.
+float share_in_front(uint direction, vec3 normal) {
+    if (directions == 1u) return 1.0;
+    return clamp(0.5 + dot(normal, record_of(direction).towards_rain) / grazing_width, 0.0, 1.0);
+}
+
 // How many of four taps the rain of a direction reaches. The place moves out along its normal, by as much as lifts a tap at the rim of
 // the disc over the surface's own plane, so that no plane shelters itself, however steep.
 uint taps_reached(uint direction, vec3 position, vec3 normal, uint noise) {
@@ -69,9 +76,10 @@ uint taps_reached(uint direction, vec3 position, vec3 normal, uint noise) {
 // 0 sheltered, 1 open: the mean of all directions, each with taps of its own.
 float rain_visibility(vec3 position, vec3 normal) {
     const uint noise = noise_at(world_place(position));
-    uint reached = 0u;
-    for (uint i = 0u; i < directions; ++i) reached += taps_reached(i, position, normal, noise + 4u * i);
-    return float(reached) / float(4u * directions);
+    float reached = 0.0;
+    for (uint i = 0u; i < directions; ++i)
+        reached += float(taps_reached(i, position, normal, noise + 4u * i)) * share_in_front(i, normal);
+    return reached / float(4u * directions);
 }
 
 #endif

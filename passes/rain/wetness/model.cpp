@@ -122,6 +122,12 @@ Arriving share_of_taps(const Scene& scene, const Taps& taps, std::uint32_t noise
     return result;
 }
 
+/// The share of a direction's rain that falls on the front of a surface.
+double share_in_front(const Scene& scene, const TracedMap& map, const SurfacePoint& p) {
+    if (scene.maps.size() == 1) return 1;
+    return std::clamp(.5 - glm::dot(facing_normal(p), map.along()) / double(grazing_width), 0., 1.);
+}
+
 /// The mean of all directions.
 Arriving looked_up(const Scene& scene, const SurfacePoint& p) {
     const double distance = glm::length(p.position), doubt = 1e-4 + rounding * (1 + distance);
@@ -131,8 +137,9 @@ Arriving looked_up(const Scene& scene, const SurfacePoint& p) {
         double sum = 0;
         for (std::uint32_t i = 0; i < scene.maps.size(); ++i) {
             const Arriving one = share_of_taps(scene, taps_around(scene, scene.maps[i], p), noise_of(cell) + 4 * i, doubt);
-            sum += one.share;
-            result.undecided = result.undecided || one.undecided;
+            const double front = share_in_front(scene, scene.maps[i], p);
+            sum += one.share * front;
+            result.undecided = result.undecided || (one.undecided && front > 0);
         }
         shares.push_back(sum / double(scene.maps.size()));
     }

@@ -30,6 +30,9 @@ const uint most_directions = 8u;
 // Of a vertical surface, the disc of taps is smaller by this share: all of it must be moved out of what stands above.
 const float disc_loss = 0.75f;
 
+// Cosines from all in front to all behind, around 0.
+const float grazing_width = 0.04f;
+
 struct RainMapPush {
     mat4 view_to_map;
 };

@@ -297,6 +297,20 @@ TEST(RainInWind, HasAPenumbraAsWideAsTheRoofIsHigh) {
     }
 }
 
+/// Rain of directions all around the vertical falls on a wall from in front alone: half of it, however the wall is turned.
+/// Nothing else is there that would shelter it.
+TEST(RainInWind, ReachesAWallFromInFrontAlone) {
+    for (const double yaw : {0., .1, .3, .55, .785398, 1.2}) {
+        Floor wall(18);
+        const glm::dvec3 normal = wall.frame.view.to_view * glm::dvec3(std::sin(yaw), 0, std::cos(yaw));
+        wall.images.at("surface_normal") = ReferenceImage(64, 64, 1, glm::dvec4(normal, 18));
+        for (const char* directions : {"4", "8"}) {
+            const ReferenceImage roughness = in_wind(wall, directions);
+            EXPECT_NEAR(share_of(roughness.at(32, 32)), .5, .02) << directions << " directions, yaw " << yaw;
+        }
+    }
+}
+
 // --- waves ------------------------------------------------------------------------------------------------------------------
 
 TEST(Rings, AreLevelInTheMeanAndNoneWithoutDrops) {

@@ -19,8 +19,9 @@ struct ViewRecord {
     uint samples;
     float near;
     float exposure;
-    float white;      // of the tone curve
-    vec3 background;  // radiance where no surface is
+    float pre_exposure;  // what all radiance of the scene was multiplied by, and the base color of unlit materials was not
+    float white;         // of the tone curve
+    vec3 background;     // radiance where no surface is
     float fog_density;
     vec3 fog_color;
     uint fog_path;       // fog_by_...

@@ -1,0 +1,87 @@
+#include "passes/scene/pre_exposure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/particles.h"
+#include "capture_format/light_types.h"
+
+namespace strata {
+namespace {
+
+// Exposed light within these is stored as well as light of 1: half floats have 10 bits from 2^-14 to 2^16, and what techniques
+// sum and weigh takes the rest.
+constexpr double least_white = 0x1p-6, most_white = 0x1p6;
+
+double brightest(const glm::vec3& color) { return std::max({std::abs(color.x), std::abs(color.y), std::abs(color.z)}); }
+
+/// What a surface beside an area light sees of it, square meters.
+double seen_area(const Light& light) {
+    const double radius = double(light.source_radius), disc = std::numbers::pi * radius * radius;
+    const LightShape shape = facts_of(light.type).shape;
+    if (shape == LightShape::rectangle) return 4 * double(light.half_extent.x) * double(light.half_extent.y);
+    return shape == LightShape::tube ? disc + 4 * radius * double(light.half_extent.x) : disc;
+}
+
+/// Of a white surface that faces the light at a quarter of its range.
+double lit_white(const Light& light) {
+    const double intensity = brightest(light.intensity);
+    const LightShape shape = facts_of(light.type).shape;
+    if (shape == LightShape::parallel) return intensity / std::numbers::pi;
+    const double distance = double(light.range) / 4, sphere = distance * distance * std::numbers::pi;
+    if (!(sphere > 0)) return 0;
+    return shape == LightShape::point ? intensity / sphere : intensity * std::min(1., seen_area(light) / sphere);
+}
+
+double lit_level(const Frame& frame) {
+    double level = brightest(frame.sun.irradiance) / std::numbers::pi;
+    for (const glm::vec3& color : {frame.hemisphere.sky, frame.hemisphere.ground}) level = std::max(level, brightest(color));
+    if (frame.fog.density > 0) level = std::max(level, brightest(frame.fog.color));
+    for (const Light& light : frame.lights) level = std::max(level, lit_white(light));
+    return level;
+}
+
+bool is_usable(double factor) {
+    return factor >= double(std::numeric_limits<float>::min()) && factor <= double(std::numeric_limits<float>::max());
+}
+
+}  // namespace
+
+std::optional<double> white_level(const Frame& frame) {
+    const double level = lit_level(frame);
+    return level > 0 && is_usable(1 / level) ? std::optional(level) : std::nullopt;
+}
+
+double pre_exposure(const Frame& frame) {
+    const double exposure = double(frame.view.exposure);
+    const std::optional<double> white = white_level(frame);
+    if (!white) return is_usable(exposure) ? exposure : 1;
+    const double exposed = exposure * *white;
+    return is_usable(exposure) && exposed >= least_white && exposed <= most_white ? exposure : 1 / *white;
+}
+
+void pre_expose(Frame& frame, double factor) {
+    if (factor == 1) return;
+    const auto scale = [&](glm::vec3& color) { color = glm::vec3(glm::dvec3(color) * factor); };
+    frame.pre_exposure *= factor;
+    frame.view.exposure = static_cast<float>(double(frame.view.exposure) / factor);
+    scale(frame.sun.irradiance);
+    for (Light& light : frame.lights) scale(light.intensity);
+    scale(frame.hemisphere.sky);
+    scale(frame.hemisphere.ground);
+    scale(frame.background);
+    scale(frame.fog.color);
+    for (Material& material : frame.materials) scale(material.emissive);
+    for (Emitter& emitter : frame.emitters)
+        for (Particle& particle : emitter.particles) {
+            scale(particle.color);
+            scale(particle.emissive);
+        }
+}
+
+}  // namespace strata

@@ -1,0 +1,44 @@
+#include "replay/session/light_unit.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "passes/frame_images.h"
+#include "passes/registry.h"
+#include "passes/technique.h"
+
+namespace strata {
+
+bool holds_radiance(std::string_view name) {
+    if (const FrameImageRow* row = find_frame_image(name)) return row->content == Content::radiance;
+    const std::size_t colon = name.find(':');
+    if (colon == std::string_view::npos) return false;
+    const Result<const Technique*> technique = find_technique(name.substr(0, colon));
+    if (!technique) return false;
+    const std::vector<DebugView>& views = (*technique)->views;
+    const auto view = std::ranges::find(views, name.substr(colon + 1), &DebugView::name);
+    return view != views.end() && view->unit.starts_with("W/");
+}
+
+HostImage scaled_light(std::string_view name, HostImage image, double factor) {
+    if (factor == 1 || !holds_radiance(name)) return image;
+    const ReferenceImage stored = in_double(image);
+    std::vector<glm::vec4> texels(stored.texels.size());
+    std::ranges::transform(stored.texels, texels.begin(),
+                           [&](const glm::dvec4& texel) { return glm::vec4(glm::dvec3(texel) * factor, texel.w); });
+    image.shape.format = Format::rgba32f;
+    image.texels.resize(texels.size() * sizeof(glm::vec4));
+    std::memcpy(image.texels.data(), texels.data(), image.texels.size());
+    return image;
+}
+
+void scale_light(ImageSet& images, double factor) {
+    if (factor == 1) return;
+    for (auto& [name, image] : images) {
+        if (!holds_radiance(name)) continue;
+        for (glm::dvec4& texel : image.texels) texel = glm::dvec4(glm::dvec3(texel) * factor, texel.w);
+        for (glm::dvec3& error : image.standard_error) error *= factor;
+    }
+}
+
+}  // namespace strata
