@@ -51,8 +51,8 @@ struct Frame {
 
     std::vector<StageChoice> recorded_with;
 
-    /// What all radiance above has been multiplied by for the replay (passes/scene/pre_exposure.h), and the base color of unlit
-    /// materials has not. 1 in a recorded frame; no part of a capture.
+    /// Factor that all radiance above has been multiplied by for the replay (passes/scene/pre_exposure.h); the base color of
+    /// unlit materials has not. 1 in a recorded frame; no part of a capture.
     double pre_exposure = 1;
 };
 

@@ -183,7 +183,7 @@ Result<void> for_each_element(const Document& document, const Accessor& accessor
     return {};
 }
 
-/// Of the file and all that it refers to, unpacked.
+/// Unpacked bytes of the file and all that it refers to.
 std::uint64_t bytes_of(const Document& document) {
     std::uint64_t sum = 0;
     for (const std::vector<std::byte>& bytes : document.storage) sum += bytes.size();

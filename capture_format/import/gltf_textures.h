@@ -24,7 +24,7 @@ namespace strata::gltf {
 enum class Encoding : std::uint32_t { srgb, linear };
 enum class AlphaUse : std::uint32_t { coverage, ignored };  ///< ignored: every texel becomes opaque
 
-/// What a sampler says.
+/// Address modes and filters of a glTF sampler.
 struct Sampling {
     AddressMode address = AddressMode::repeat;
     TexelFilter magnify = TexelFilter::linear, minify = TexelFilter::linear;

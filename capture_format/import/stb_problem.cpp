@@ -7,7 +7,7 @@
 namespace strata {
 namespace {
 
-/// What stb says of no bytes, and never of a file whose first bytes are those of a PNG or JPEG.
+/// Reason that stb gives for no bytes, and never for a file whose first bytes are those of a PNG or JPEG.
 constexpr std::string_view said_of_nothing = "unknown image type";
 
 }  // namespace

@@ -132,7 +132,7 @@ std::string implementation_doubt(const Measurement&);
 /// Whether the model could not decide a single texel: an implementation error of 0 then says nothing.
 bool is_nothing_compared(const Measurement&);
 
-/// What a row's images could not hold of light: a sentence for each, separated by "; ".
+/// Sentences about the light that a row's images could not hold, separated by "; ".
 std::string light_faults(const Measurement&);
 
 std::string as_text(const Report&);

@@ -147,7 +147,7 @@ private:
     template <typename Action>
     std::invoke_result_t<Action> failures_as_errors(Action);
     Result<Execution> execute(const Declaration&, RunOptions);
-    /// Of the loaded frame.
+    /// Factor between recorded and stored radiance of the loaded frame.
     double pre_exposure() const { return loaded_->frame.pre_exposure; }
     /// An image of the loaded frame in the recorded unit of light.
     HostImage as_recorded(std::string_view name, HostImage) const;
