@@ -45,6 +45,7 @@ TEST_P(HardLights, ThatReachNothingAddNothing) {  // docs/algorithms/lighting.md
         with.lights.push_back(light);
         light.position = without.view.origin;
         light.range = .5f * without.view.near;
+        light.intensity = glm::vec3(.01f);  // as bright as the room where it reaches, so that light is stored in the same unit
         with.lights.push_back(light);
     }
     const auto dark = lit_by(without), same = lit_by(with);

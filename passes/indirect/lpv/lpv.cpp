@@ -235,7 +235,7 @@ Technique lpv() {
         .variants = {"iterations=8",
                      "iterations=32",
                      "iterations=64",
-                     "propagation=linear",
+                     "propagation=energy_true",
                      "propagation=clamped",
                      "faces=exact",
                      "occlusion=none",
