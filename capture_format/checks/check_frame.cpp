@@ -34,7 +34,7 @@ void inspect_view(Inspection& inspection, const View& view) {
                       view.samples);
     inspection.expect_finite("origin", view.origin);
     inspection.expect_positive("distance of the near plane in meters", view.near);
-    inspection.expect_positive("exposure", view.exposure);
+    inspection.expect_within("exposure", view.exposure, 1.2e-38, 3.4e38);  // what a float and a device hold, and 1 over it
     inspection.expect_within("jitter x in NDC", view.jitter.x, -1, 1);
     inspection.expect_within("jitter y in NDC", view.jitter.y, -1, 1);
     for (int i = 0; i < 3; ++i) {
@@ -68,7 +68,7 @@ void inspect_camera(Inspection& inspection, const Lens& lens, const Film& film) 
     inspection.expect_not_negative("aperture in meters", lens.aperture);
     inspection.expect_not_negative("grain", film.grain);
     inspection.expect_not_negative("fade", film.fade);
-    inspection.expect_positive("film's white", film.white);
+    inspection.expect_within("film's white", film.white, 1e-18, 1e18);  // its square divides
 }
 
 void inspect_choices(Inspection& inspection, const Frame& frame) {

@@ -151,6 +151,8 @@ TEST(FrameCheck, TheViewIsOneThatCanBeDrawn) {
         {FailsWith("frame.projection_form"), [](Frame& f) { f.view.projection[2][2] = -1; }},
         {FailsWith("frame.projection_flip"), [](Frame& f) { f.view.projection[1][1] *= -1; }},
         {FailsWith("frame.near_planes"), [](Frame& f) { f.view.near = .2f; }},
+        {FailsWith("frame.range", Field("property", "exposure")), [](Frame& f) { f.view.exposure = 1e-45f; }},
+        {FailsWith("frame.range", Field("property", "film's white")), [](Frame& f) { f.film.white = 1e-38f; }},
     });
 }
 
