@@ -11,6 +11,7 @@
 #include "passes/technique.h"
 #include "passes/transparency/truth.h"
 #include "replay/images/image_io.h"
+#include "tests/support/every_nth.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -98,7 +99,8 @@ std::string bending_technique_name(const testing::TestParamInfo<std::string_view
     return std::string(info.param.substr(info.param.find('/') + 1));
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, Distortion, testing::ValuesIn(names_of_techniques()), bending_technique_name);
+INSTANTIATE_TEST_SUITE_P(Some, Distortion, testing::ValuesIn(every_nth(3, names_of_techniques())), bending_technique_name);
+INSTANTIATE_TEST_SUITE_P(Exhaustive, Distortion, testing::ValuesIn(names_of_techniques()), bending_technique_name);
 
 /// Offsets are summed with the T(z) of their fragments: .02 behind t = .5 and .04 before it.
 TEST(DistortionTruth, SumsOffsetsByTransmittance) {

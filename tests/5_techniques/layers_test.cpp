@@ -5,6 +5,7 @@
 #include <iterator>
 #include <memory>
 #include <random>
+#include <span>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -58,19 +59,27 @@ std::vector<std::string> lines_of(std::string_view point) {
     return {std::istream_iterator<std::string>(words), {}};
 }
 
-TEST_P(ShuffledLayers, AreWhatTheModelSaysAtEveryNumberOfThem) {
-    const Technique& technique = GetParam();
-    std::vector<std::string_view> points{""};
-    points.insert(points.end(), technique.variants.begin(), technique.variants.end());
+/// At each of the points: settings as "key=value key=value".
+void expect_layers_as_modelled(Session& session, const Technique& technique, std::span<const std::string_view> points) {
     for (std::size_t frame = 0; frame < layer_counts.size(); ++frame)  // outside: a session has one frame loaded
         for (const std::string_view point : points) {
             SCOPED_TRACE(fmt::format("{} layers, {}", layer_counts[frame], point));
             const Request request{.variant = {.frame = frame}, .choices = chosen({std::string(technique.name)}, lines_of(point))};
-            const Accuracy accuracy = must(session_->judge(request, Stage::transparency, Against::model));
+            const Accuracy accuracy = must(session.judge(request, Stage::transparency, Against::model));
             if (!accuracy.not_supported.empty()) continue;
             expect_within_tolerance(accuracy, technique, request);
             EXPECT_GT(accuracy.compared, 0u) << "all undecided";
         }
+}
+
+TEST_P(ShuffledLayers, AreWhatTheModelSaysAtEveryNumberOfThem) {
+    expect_layers_as_modelled(*session_, GetParam(), std::array{std::string_view()});
+}
+
+using ExhaustiveShuffledLayers = ShuffledLayers;
+
+TEST_P(ExhaustiveShuffledLayers, AreWhatTheModelSaysAtEverySettingOfTheReport) {
+    expect_layers_as_modelled(*session_, GetParam(), GetParam().variants);
 }
 
 std::vector<Technique> of_the_stage() {
@@ -80,6 +89,7 @@ std::vector<Technique> of_the_stage() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, ShuffledLayers, testing::ValuesIn(of_the_stage()), technique_test_name);
+INSTANTIATE_TEST_SUITE_P(Techniques, ExhaustiveShuffledLayers, testing::ValuesIn(of_the_stage()), technique_test_name);
 
 }  // namespace
 }  // namespace strata

@@ -87,8 +87,7 @@ TEST_P(LightVolumeRange, IsAsPublished) {
 }
 
 // Of the published 65 cells, those that light can come back from within the iterations.
-constexpr std::array few_rows{RangeRow{Source::lobe, 16, "face", 25, {.884, 1.146, .917, .651, .367, .214, .041}},
-                              RangeRow{Source::isotropic, 32, "cell", 41, {.788, 1.232, 1.242, 1.108, .862, .657, .286}}};
+constexpr RangeRow small_row{Source::lobe, 16, "face", 25, {.884, 1.146, .917, .651, .367, .214, .041}};
 constexpr std::array all_rows{RangeRow{Source::lobe, 8, "face", 65, {.837, .994, .624, .345, .103, .041, .001}},
                               RangeRow{Source::lobe, 16, "face", 65, {.884, 1.146, .917, .651, .367, .214, .041}},
                               RangeRow{Source::lobe, 32, "face", 65, {.918, 1.266, 1.165, .980, .750, .567, .253}},
@@ -99,7 +98,7 @@ constexpr std::array all_rows{RangeRow{Source::lobe, 8, "face", 65, {.837, .994,
 
 std::string range_row_name(const testing::TestParamInfo<RangeRow>& info) { return range_row_text(info.param); }
 
-INSTANTIATE_TEST_SUITE_P(Small, LightVolumeRange, testing::ValuesIn(few_rows), range_row_name);
+INSTANTIATE_TEST_SUITE_P(Small, LightVolumeRange, testing::Values(small_row), range_row_name);
 INSTANTIATE_TEST_SUITE_P(Exhaustive, LightVolumeRange, testing::ValuesIn(all_rows), range_row_name);
 
 }  // namespace

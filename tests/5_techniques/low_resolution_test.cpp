@@ -80,10 +80,12 @@ std::string merging_technique_name(const testing::TestParamInfo<std::size_t>& in
     return std::string(name.substr(name.find('/') + 1));
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, LowResolution, testing::Range(std::size_t{0}, merging().size()), merging_technique_name);
+// Of techniques that sum, of those that build a function, and of those that keep a volume.
+INSTANTIATE_TEST_SUITE_P(Kinds, LowResolution, testing::Values(0u, 2u, 6u), merging_technique_name);
+INSTANTIATE_TEST_SUITE_P(Exhaustive, LowResolution, testing::Range(std::size_t{0}, merging().size()), merging_technique_name);
 
 /// Smoke is soft: what half resolution costs a technique that is exact otherwise is small, and seen.
-TEST(LowResolutionError, OfAnExactFunctionIsThatOfFilteringSmoke) {
+TEST(ExhaustiveLowResolutionError, OfAnExactFunctionIsThatOfFilteringSmoke) {
     const auto error = [&](Resolution resolution) {
         Frame frame = low_resolution_smoke(160, 90, 1);
         for (Emitter& emitter : frame.emitters) emitter.resolution = resolution;

@@ -16,6 +16,7 @@
 #include "passes/technique.h"
 #include "replay/images/image_io.h"
 #include "tests/support/agreement.h"
+#include "tests/support/every_nth.h"
 #include "tests/support/not_finite.h"
 #include "tests/support/session.h"
 
@@ -27,8 +28,6 @@ struct HardFrame {
     Frame (*frame)();
     Frame (*looks_like)() = nullptr;  ///< null: held against the models alone
 };
-
-void PrintTo(const HardFrame& hard, std::ostream* out) { *out << hard.name; }
 
 Frame scenario(std::string_view name, std::uint32_t width = 0, std::uint32_t height = 0, std::uint32_t samples = 1) {
     const Scenario& found = *must(find_scenario(name));
@@ -81,11 +80,16 @@ Session& session_of_hard_frames() {
 }
 
 /// Frames that one process replays, because the techniques' pipelines are the same for all of them.
-using HardGroup = std::vector<HardFrame>;
+struct HardGroup {
+    std::vector<HardFrame> frames;
+    std::size_t every_nth_technique = 1;
+};
+
+void PrintTo(const HardGroup& group, std::ostream* out) { *out << group.frames.front().name; }
 
 class HardFrames : public testing::TestWithParam<HardGroup> {
 protected:
-    HardFrames() { choose(GetParam().front()); }
+    HardFrames() { choose(GetParam().frames.front()); }
 
     void choose(const HardFrame& chosen) {
         for (const HardFrame& hard : hard_frames)
@@ -123,7 +127,7 @@ protected:
 
 /// With every stage forced: what a frame does not call for changes nothing that a model says.
 TEST_P(HardFrames, LeaveEveryTechniqueWithNumbersAndWhatItsModelSays) {
-    for (const HardFrame& hard : GetParam()) {
+    for (const HardFrame& hard : GetParam().frames) {
         SCOPED_TRACE(hard.name);
         choose(hard);
         expect_numbers_and_what_models_say(hard.name);
@@ -132,7 +136,7 @@ TEST_P(HardFrames, LeaveEveryTechniqueWithNumbersAndWhatItsModelSays) {
 
 void HardFrames::expect_numbers_and_what_models_say(std::string_view name_of_frame) {
     const Features called_for = frame_features(must(session_.frame(hard_)));
-    for (const Technique& technique : techniques()) {
+    for (const Technique& technique : every_nth(GetParam().every_nth_technique, techniques())) {
         const Request request = forced(technique);
         const auto run = session_.run(request);
         ASSERT_TRUE(run) << technique.name << ": " << run.error().sentence;
@@ -161,29 +165,32 @@ TEST_P(TwinFrames, LookLikeTheirSimplerTwins) {
 }
 
 std::string name_of(const testing::TestParamInfo<HardGroup>& group) {
-    const HardGroup& frames = group.param;
+    const std::vector<HardFrame>& frames = group.param.frames;
     return frames.size() == 1 ? std::string(frames.front().name)
                               : fmt::format("{}_and_{}", frames.front().name, frames.back().name);
 }
 
 std::vector<HardGroup> each_by_itself(std::span<const HardFrame> frames) {
     std::vector<HardGroup> groups;
-    for (const HardFrame& hard : frames) groups.push_back({hard});
+    for (const HardFrame& hard : frames) groups.push_back({{hard}});
     return groups;
 }
 
 std::vector<HardGroup> with_twins() {
     std::vector<HardGroup> found = each_by_itself(hard_frames);
-    std::erase_if(found, [](const HardGroup& group) { return group.front().looks_like == nullptr; });
+    std::erase_if(found, [](const HardGroup& group) { return group.frames.front().looks_like == nullptr; });
     return found;
 }
 
 // One pixel of one sample finds what one of four samples does, where there are no edges, and makes every pipeline for it.
-constexpr std::size_t at_one_sample = 3;  // from here on
-INSTANTIATE_TEST_SUITE_P(FourSamples, HardFrames, testing::Values(HardGroup{hard_frames[1], hard_frames[2]}), name_of);
-INSTANTIATE_TEST_SUITE_P(Frames, HardFrames, testing::ValuesIn(each_by_itself(std::span(hard_frames).subspan(at_one_sample))),
+const std::vector<HardFrame> at_four_samples{hard_frames[1], hard_frames[2]};
+constexpr std::size_t without_layers = 4;  // from here on
+INSTANTIATE_TEST_SUITE_P(FourSamples, HardFrames, testing::Values(HardGroup{at_four_samples, 3}), name_of);
+INSTANTIATE_TEST_SUITE_P(Frames, HardFrames, testing::ValuesIn(each_by_itself(std::span(hard_frames).subspan(without_layers))),
                          name_of);
-INSTANTIATE_TEST_SUITE_P(Exhaustive, HardFrames, testing::Values(HardGroup{hard_frames[0]}), name_of);
+INSTANTIATE_TEST_SUITE_P(Exhaustive, HardFrames,
+                         testing::Values(HardGroup{{hard_frames[0]}}, HardGroup{at_four_samples}, HardGroup{{hard_frames[3]}}),
+                         name_of);
 INSTANTIATE_TEST_SUITE_P(Frames, TwinFrames, testing::ValuesIn(with_twins()), name_of);
 
 }  // namespace

@@ -110,7 +110,7 @@ TEST(UnitOfLight, ExhaustiveLeavesEveryError) {
 
 /// The exposure alone changes the unit that radiance is stored in, not the radiance: of opaque and of transparent surfaces, lit,
 /// unlit and emissive ones, and of what is behind them.
-TEST(UnitOfLight, OfStorageIsNotThatOfImages) {
+TEST(UnitOfLight, ExhaustiveOfStorageIsNotThatOfImages) {
     for (const std::string_view scenario : {"night_market", "glass_and_smoke"}) {
         std::vector<Frame> frames(2, of_scenario(scenario));
         for (Frame& frame : frames) {

@@ -130,7 +130,7 @@ TEST(ExhaustiveVoxelVolume, CoversEveryFragmentThatItIsAskedToHold) {
 }
 
 // (v) of docs/algorithms/transparency.md 9.7: a curve that the number of slices does not bend.
-TEST(VoxelVolume, ThatIsAdaptiveIsADenseOneOfAllItsVirtualSlices) {
+TEST(ExhaustiveVoxelVolume, ThatIsAdaptiveIsADenseOneOfAllItsVirtualSlices) {
     std::size_t finer = 0;
     for (const std::string_view scenario : info(Stage::transparency).scenarios) {
         Request request = on_scenario(scenario);
