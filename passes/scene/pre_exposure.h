@@ -14,7 +14,7 @@ struct Frame;  // capture_format/frame.h
 double pre_exposure(const Frame&);
 
 /// About the radiance of a white surface: in sun, sky and fog, and under each light alone at a quarter of its range. Nothing
-/// where no light is recorded.
+/// where no light is recorded. In the unit of the frame's light, pre-exposed or not.
 std::optional<double> white_level(const Frame&);
 
 /// Multiplies lights, sky, fog, background and emission by the factor and divides the exposure by it. What has no radiance of its

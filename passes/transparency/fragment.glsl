@@ -66,9 +66,11 @@ vec3 from_volumes(MaterialPoint m) {
            volume_light_at(LitPlace(view.to_world * m.position, view.to_world * normal));
 }
 
-// A particle has no side: it scatters the mean radiance of all directions evenly, its color, at most 1, being its albedo.
+// A particle has no side: it scatters the mean radiance of all directions evenly. Its color is radiance; over that of a white
+// surface, and at most 1, it is the albedo.
 vec3 from_volumes_around(vec3 color) {
-    return clamp(color, 0.0, 1.0) * volume_light_at(LitPlace(view.to_world * position_here(), vec3(0.0)));
+    if (view.white_level == 0.0) return vec3(0.0);
+    return clamp(color / view.white_level, 0.0, 1.0) * volume_light_at(LitPlace(view.to_world * position_here(), vec3(0.0)));
 }
 
 vec3 unlit(MaterialPoint m) { return m.base_color * view.pre_exposure; }

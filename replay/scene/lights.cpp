@@ -4,6 +4,7 @@
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/light.h"
 #include "passes/scene/light_records.h"
+#include "passes/scene/pre_exposure.h"
 #include "passes/scene/scene_facts.h"
 #include "replay/scene/scene_records.h"
 
@@ -40,6 +41,7 @@ ViewRecord view_record(const Frame& frame) {
         .near = v.near,
         .exposure = v.exposure,
         .pre_exposure = static_cast<float>(frame.pre_exposure),
+        .white_level = static_cast<float>(white_level(frame).value_or(0)),
         .white = frame.film.white,
         .background = frame.background,
         .fog_density = frame.fog.density,

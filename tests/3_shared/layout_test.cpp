@@ -44,6 +44,7 @@ std::vector<Record> view_records() {
               {"near", offsetof(V, near)},
               {"exposure", offsetof(V, exposure)},
               {"pre_exposure", offsetof(V, pre_exposure)},
+              {"white_level", offsetof(V, white_level)},
               {"white", offsetof(V, white)},
               {"background", offsetof(V, background)},
               {"fog_density", offsetof(V, fog_density)},

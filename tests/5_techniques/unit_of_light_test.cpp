@@ -109,14 +109,11 @@ TEST(UnitOfLight, ExhaustiveLeavesEveryError) {
 }
 
 /// The exposure alone changes the unit that radiance is stored in, not the radiance: of opaque and of transparent surfaces, lit,
-/// unlit and emissive ones, and of what is behind them.
+/// unlit and emissive ones, of particles in light volumes, and of what is behind them.
 TEST(UnitOfLight, ExhaustiveOfStorageIsNotThatOfImages) {
     for (const std::string_view scenario : {"night_market", "glass_and_smoke"}) {
         std::vector<Frame> frames(2, of_scenario(scenario));
-        for (Frame& frame : frames) {
-            frame.lens = {};         // bloom begins at an exposed brightness
-            frame.emitters.clear();  // what a particle takes of light volumes is its exposed color
-        }
+        for (Frame& frame : frames) frame.lens = {};  // bloom begins at an exposed brightness
         frames[1].view.exposure *= 5;
         const auto session = session_of(frames);
         const std::vector<std::string> names{"emission", "light", "color"};

@@ -20,6 +20,7 @@ struct ViewRecord {
     float near;
     float exposure;
     float pre_exposure;  // what all radiance of the scene was multiplied by, and the base color of unlit materials was not
+    float white_level;   // radiance of a white surface in the scene's light (passes/scene/pre_exposure.h); 0: no light
     float white;         // of the tone curve
     vec3 background;     // radiance where no surface is
     float fog_density;
