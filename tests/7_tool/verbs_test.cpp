@@ -316,7 +316,7 @@ TEST(Graph, PrintsThePlanAndWhyStagesAreLeftOut) {
 
 TEST(Report, AnExactTechniqueStandsInForTheTruthOfALargeFrame) {
     ASSERT_EQ(strata("record three_panes -o large.strata --size 641x360").code, 0);
-    const Finished made = strata("report large.strata --repeats 1 --sweep pool=2 --json");  // defaults alone
+    const Finished made = strata("report large.strata --repeats 1 --techniques alpha_blend,weighted,moments --json");
     ASSERT_EQ(made.code, 0) << made.err;
     const json report = json::parse(made.out);
     EXPECT_THAT(report["truth"].get<std::string>(), HasSubstr("stands in"));
@@ -324,7 +324,7 @@ TEST(Report, AnExactTechniqueStandsInForTheTruthOfALargeFrame) {
     for (const json& row : report["rows"]) EXPECT_TRUE(row.contains("technique_error") || row.contains("not_supported")) << row;
 }
 
-TEST(Report, JsonCsvAndTextNameEveryTechniqueOfTheStage) {
+TEST(ExhaustiveReport, JsonCsvAndTextNameEveryTechniqueOfTheStage) {
     record_panes("--size 48x27");
     const Finished made = strata("report panes.strata --repeats 1 --json");
     ASSERT_EQ(made.code, 0) << made.err;
@@ -414,7 +414,7 @@ std::size_t fields(std::string_view line) {
 TEST(Report, OfSeveralCapturesIsEachOnesAndAPooledOne) {
     record_panes("--size 48x27");
     ASSERT_EQ(strata("record red_and_green_glass -o glass.strata --size 48x27").code, 0);
-    const std::string both = "report panes.strata glass.strata --repeats 1 --sweep pool=2";
+    const std::string both = "report panes.strata glass.strata --repeats 1 --techniques alpha_blend,weighted,moments";
     const Finished made = strata(both + " --json");
     ASSERT_EQ(made.code, 0) << made.err;
     const json reports = json::parse(made.out);
