@@ -113,6 +113,8 @@ Result<std::string> deep_exr(const DeepImage& image, const Metadata& metadata) {
     std::string file;
     try {
         file = head_of(image, metadata);
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& problem) {
         return fail(Fault::usage, "deep.cannot_encode", "a deep image of {width} x {height} pixels cannot be made: {reason}",
                     image.width, image.lines.size(), problem.what());

@@ -1,6 +1,7 @@
 #include "replay/expectations/expectation.h"
 
 #include <algorithm>
+#include <new>
 
 #include <xxhash.h>
 #include <nlohmann/json.hpp>
@@ -116,6 +117,8 @@ std::string as_json(const Expectation& e) {
 Result<Expectation> parse_expectation(std::string_view json) {
     try {
         return expectation_from(ordered_json::parse(json));
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& problem) {
         return fail(Fault::bad_input, "expectation.cannot_read", "an expectation cannot be read: {reason}", problem.what());
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <new>
 #include <string_view>
 
 namespace strata {
@@ -81,6 +82,8 @@ Result<Instance> Instance::create(Validation validation, std::span<const char* c
                         "validation needs the layer {layer}: install vulkan-validationlayers", validation_layer);
         }
         return Instance(std::move(context), validation, extensions);
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& problem) {  // no loader is a runtime_error, no driver a vk::SystemError
         return fail(Fault::device_lacks, "device.no_vulkan",
                     "no Vulkan on this machine ({reason}): install a driver, mesa-vulkan-drivers at least", problem.what());

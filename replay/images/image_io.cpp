@@ -6,6 +6,7 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string_view>
 #include <thread>
@@ -242,6 +243,8 @@ Result<void> write_exr(const std::filesystem::path& path, const NamedImages& ima
             output.setFrameBuffer(buffer);
             output.writePixels(static_cast<int>(part.height));
         }
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& problem) {
         return fail(Fault::usage, "image.cannot_encode", "cannot write {file}: {reason}", path.string(), problem.what());
     }
@@ -265,6 +268,8 @@ Result<NamedImages> read_exr(const std::filesystem::path& path, MemoryBudget& bu
                 return within(added.error(), "cannot read {file}", path.string());
         }
         return images;
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& problem) {
         return fail(Fault::bad_input, "image.cannot_read", "cannot read {file}: {reason}", path.string(), problem.what());
     }

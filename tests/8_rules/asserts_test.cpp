@@ -1,6 +1,8 @@
 // An assert is for our own mistakes: a release build does not have it. What a library or the system returns is checked in every
 // build.
+#include <algorithm>
 #include <regex>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -34,6 +36,22 @@ TEST(Asserts, ZstdIsCalledInOneFile) {
             if (file.folder() == "tests" || !included(line).starts_with("zstd")) continue;
             EXPECT_EQ(file.path.generic_string(), "capture_format/container/compression.cpp");
         }
+}
+
+/// The words of any other exception say what is wrong with a file; of this one they would say that it is damaged.
+TEST(Exceptions, ThatBecomeASentenceAreNoLackOfMemory) {
+    int found = 0;
+    for (const SourceFile& file : source_files())
+        for (std::size_t line = 0; line < file.lines.size(); ++line) {
+            if (file.folder() == "tests" || file.lines[line].find("catch (const std::exception& ") == std::string::npos) continue;
+            const std::size_t first = line - std::min<std::size_t>(line, 5);
+            const auto before = std::span(file.lines).subspan(first, line - first);
+            const bool is_told_apart = std::ranges::any_of(
+                before, [](const std::string& text) { return text.find("catch (const std::bad_alloc&)") != text.npos; });
+            EXPECT_TRUE(is_told_apart) << file.path.string() << ":" << line + 1 << ": catch std::bad_alloc before";
+            ++found;
+        }
+    EXPECT_GE(found, 5);
 }
 
 }  // namespace

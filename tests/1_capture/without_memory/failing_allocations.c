@@ -1,8 +1,11 @@
 /* Preloaded into a program (LD_PRELOAD), this fails its allocations from one number to another, counted over all threads since
-   fail_allocations(). The program finds the functions by dlsym(). operator new allocates by malloc(). */
+   fail_allocations(), which a program finds by dlsym(), or since the program was loaded: FAIL_ALLOCATIONS="FROM TO" in the
+   environment does that, and the file COUNTED_ALLOCATIONS then has their number. operator new allocates by malloc(). */
 #include <errno.h>
 #include <stdatomic.h>
 #include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 void* __libc_malloc(size_t);
 void* __libc_calloc(size_t, size_t);
@@ -38,4 +41,20 @@ void* aligned_alloc(size_t alignment, size_t bytes) { return memalign(alignment,
 int posix_memalign(void** result, size_t alignment, size_t bytes) {
     *result = memalign(alignment, bytes);
     return *result ? 0 : ENOMEM;
+}
+
+__attribute__((constructor)) static void begin(void) {
+    long from, to;
+    const char* numbers = getenv("FAIL_ALLOCATIONS");
+    if (numbers && sscanf(numbers, "%ld %ld", &from, &to) == 2) fail_allocations(from, to);
+}
+
+__attribute__((destructor)) static void end(void) {
+    const char* path = getenv("COUNTED_ALLOCATIONS");
+    if (!path) return;
+    pause_failing();
+    FILE* file = fopen(path, "w");
+    if (!file) return;
+    fprintf(file, "%ld", (long)count);
+    fclose(file);
 }
