@@ -60,7 +60,7 @@ std::vector<std::string> lines_of(std::string_view point) {
 }
 
 /// At each of the points: settings as "key=value key=value".
-void expect_layers_as_modelled(Session& session, const Technique& technique, std::span<const std::string_view> points) {
+void expect_layers_as_modeled(Session& session, const Technique& technique, std::span<const std::string_view> points) {
     for (std::size_t frame = 0; frame < layer_counts.size(); ++frame)  // outside: a session has one frame loaded
         for (const std::string_view point : points) {
             SCOPED_TRACE(fmt::format("{} layers, {}", layer_counts[frame], point));
@@ -73,13 +73,13 @@ void expect_layers_as_modelled(Session& session, const Technique& technique, std
 }
 
 TEST_P(ShuffledLayers, AreWhatTheModelSaysAtEveryNumberOfThem) {
-    expect_layers_as_modelled(*session_, GetParam(), std::array{std::string_view()});
+    expect_layers_as_modeled(*session_, GetParam(), std::array{std::string_view()});
 }
 
 using ExhaustiveShuffledLayers = ShuffledLayers;
 
 TEST_P(ExhaustiveShuffledLayers, AreWhatTheModelSaysAtEverySettingOfTheReport) {
-    expect_layers_as_modelled(*session_, GetParam(), GetParam().variants);
+    expect_layers_as_modeled(*session_, GetParam(), GetParam().variants);
 }
 
 std::vector<Technique> of_the_stage() {
