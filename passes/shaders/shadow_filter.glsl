@@ -9,7 +9,7 @@
 #include "passes/shaders/scene.glsl"
 
 layout(constant_id = 60) const int shadow_kernel = 4;         // texels per edge of the fixed kernel
-layout(constant_id = 61) const float shadow_slope_limit = 4.0;  // tangent between normal and light that the bias makes up for
+layout(constant_id = 61) const float shadow_slope_limit = 20.0;  // tangent between normal and light that the bias makes up for
 layout(constant_id = 62) const uint shadow_allocation = 0u;   // Allocation of passes/scene/shadow_views.h
 layout(constant_id = 63) const int shadow_search_taps = 16;
 layout(constant_id = 64) const int shadow_filter_taps = 32;
@@ -18,8 +18,12 @@ layout(constant_id = 65) const uint shadow_noise = 0u;        // 1: the discs of
 const float cascade_blend_share = 0.1;  // of a cascade's depth (docs/algorithms/lighting.md 6.4)
 const float least_disc_radius = 0.5;     // penumbrae are 1 to 64 texels wide (docs/algorithms/lighting.md 6.2)
 const float greatest_disc_radius = 32.0;
+// Tangent between normal and light up to which the receiver moves towards the light; what is steeper follows the receiver's plane.
+const float moved_slope = 4.0;
 
-// A receiver in a map: where, in texels with centers at +.5, how deep, and what its plane gains in depth per texel.
+// A receiver in a map: where, in texels with centers at +.5, how deep, and what its plane gains in depth per texel: `gradient` over
+// every texel, `rise` over those alone that the plane crosses nearer to the light than the receiver. Of those that it crosses
+// farther away, what is nearer than the plane but not than the receiver does not shade the receiver.
 struct MapPoint {
     ivec3 corner;    // of the map: its first texel, its layer
     int size;
@@ -29,6 +33,7 @@ struct MapPoint {
     float depth;
     vec2 gradient;
     float penumbra;  // its width in texels per depth between receiver and blocker
+    vec2 rise;
 };
 
 ivec2 kept_on_face(MapPoint p, ivec2 texel) { return p.at_seams ? clamp(texel, ivec2(0), ivec2(p.size - 1)) : texel; }
@@ -40,7 +45,10 @@ float map_depth(MapPoint p, ivec2 texel) {
 }
 
 // Of the receiver's plane over a texel's center.
-float plane_depth(MapPoint p, ivec2 texel) { return max(p.depth + dot(p.gradient, vec2(texel) + 0.5 - p.u), 0.0); }
+float plane_depth(MapPoint p, ivec2 texel) {
+    const vec2 away = vec2(texel) + 0.5 - p.u;
+    return max(p.depth + dot(p.gradient, away) + max(dot(p.rise, away), 0.0), 0.0);
+}
 
 uint is_lit(MapPoint p, ivec2 texel) {
     const ivec2 at = kept_on_face(p, texel);
@@ -160,7 +168,9 @@ vec2 plane_gradient(ShadowRecord map, vec4 at, vec3 normal) {
 
 // The share of one map. The receiver moves along the light's ray, so shadows stay where they are: by the map's bias, and by what a
 // plane gains on the light over the fixed kernel's corner and half a texel. Texels lie across the map's axis, not across the ray: a
-// plane that the ray meets squarely still gains if the axis does not. A soft kernel follows the plane, tap by tap.
+// plane that the ray meets squarely still gains if the axis does not. A soft kernel follows the plane, tap by tap. A fixed one follows
+// the part of the slope above `moved_slope`: under a sun 3 degrees high the receiver would have to move 64 texels to make up for it, past
+// whatever stands on the ground so near.
 float one_map(LightRecord light, uint record, vec3 position, vec3 normal, bool soft) {
     const ShadowRecord map = shadows[record];
     const bool sun = !light_has_range(light.type);
@@ -168,10 +178,10 @@ float one_map(LightRecord light, uint record, vec3 position, vec3 normal, bool s
     const vec3 to_light = sun ? -light.direction : normalize(offset);
     const float cosine = clamp(dot(normal, to_light), 1e-3, 1.0);
     const vec3 axis = sun ? to_light : vec3(map.view_to_map[0].w, map.view_to_map[1].w, map.view_to_map[2].w);
-    const float slope = min(length(cross(normal, axis)) / cosine, shadow_slope_limit);
+    const float tangent = length(cross(normal, axis)) / cosine, slope = min(tangent, shadow_slope_limit);
     const float w = (map.view_to_map * vec4(position, 1.0)).w;
     const float radius = soft ? 0.5 : 0.70710678 * float(shadow_kernel) + 0.5;
-    float towards = map.bias + radius * map.texel * w * slope;
+    float towards = map.bias + radius * map.texel * w * min(slope, moved_slope);
     if (!sun) towards = min(towards, 0.5 * length(offset));
     const vec4 at = map.view_to_map * vec4(position + towards * to_light, 1.0);
     if (at.w <= 0.0) return outside_share(record);
@@ -180,8 +190,11 @@ float one_map(LightRecord light, uint record, vec3 position, vec3 normal, bool s
     if (any(lessThan(u, vec2(-reach))) || any(greaterThan(u, vec2(map.size + reach)))) return outside_share(record);
     const bool at_seams = !sun && light.shadow_slots > 1u;
     const ivec3 corner = ivec3(map.offset, map.layer);
-    MapPoint point = MapPoint(corner, int(map.size), at_seams, sun, u, at.z / at.w, vec2(0.0), 0.0);
-    if (!soft) return fixed_share(record, point);
+    MapPoint point = MapPoint(corner, int(map.size), at_seams, sun, u, at.z / at.w, vec2(0.0), 0.0, vec2(0.0));
+    if (!soft) {
+        if (slope > moved_slope) point.rise = (slope - moved_slope) / tangent * plane_gradient(map, at, normal);
+        return fixed_share(record, point);
+    }
     point.gradient = plane_gradient(map, at, normal);
     point.penumbra = penumbra_per_depth(map, sun);
     return soft_kernel(point, first_direction(position));

@@ -94,9 +94,10 @@ std::vector<Param> shadow_map_params() {
         param<&ShadowFilter::slope_limit>(
             {.name = "slope_limit",
              .low = 0,
-             .high = 8,
-             .fallback = 4,
-             .help = "steepest slope that the bias compensates: tangent of the angle between normal and light; 4 is 76 degrees"}),
+             .high = 64,
+             .fallback = 20,
+             .help =
+                 "steepest slope that the bias compensates: tangent of the angle between normal and light; 20 is 87 degrees"}),
         param<&ShadowFilter::allocation>({.name = "allocation",
                                           .low = 0,
                                           .high = 1,

@@ -15,6 +15,9 @@ namespace strata::shadows {
 
 namespace {
 
+// Slopes up to which receivers move towards the light; what is steeper, fixed kernels follow tap by tap.
+constexpr double moved_slope = 4;
+
 Towards to_light(const LookupScene& scene, const ShadowView& view, const Receiver& receiver) {
     return towards(scene.frame, scene.lights[view.light], receiver.position);
 }
@@ -26,6 +29,14 @@ double doubt(const ShadowView& view, const Receiver& receiver, const glm::dvec4&
     const double meters = 2e-6 * (1 + glm::length(receiver.position) + (std::isinf(distance) ? 0 : distance));
     const bool perspective = glm::dvec3(depth_row) == glm::dvec3(0);
     return perspective ? meters * at.z / (at.w * at.w) : meters * glm::length(glm::dvec3(depth_row)) + 1e-6;
+}
+
+// Between normal and light, across the axis of the light's map.
+double tangent_of(const ShadowView& view, const Receiver& receiver, const Towards& to) {
+    const double cosine = std::clamp(glm::dot(receiver.normal, to.direction), 1e-3, 1.0);
+    const auto w_row = glm::dvec3(glm::transpose(view.view_to_map)[3]);  // the axis of a local light's map
+    const glm::dvec3 axis = w_row == glm::dvec3(0) ? to.direction : w_row;
+    return glm::length(glm::cross(receiver.normal, axis)) / cosine;
 }
 
 // The face of a cube that serves a receiver; undecided where two are equally near but for rounding and do not agree.
@@ -82,10 +93,7 @@ std::optional<Lookup> biased_lookup(const LookupScene& scene, const ShadowView& 
                                     KernelSize kernel) {
     const Towards to = to_light(scene, view, receiver);
     const double w = (view.view_to_map * glm::dvec4(receiver.position, 1)).w;
-    const double cosine = std::clamp(glm::dot(receiver.normal, to.direction), 1e-3, 1.0);
-    const auto w_row = glm::dvec3(glm::transpose(view.view_to_map)[3]);  // the axis of a local light's map
-    const glm::dvec3 axis = w_row == glm::dvec3(0) ? to.direction : w_row;
-    const double slope = std::min(glm::length(glm::cross(receiver.normal, axis)) / cosine, double(scene.filter.slope_limit));
+    const double slope = std::min({tangent_of(view, receiver, to), double(scene.filter.slope_limit), moved_slope});
     const double moved = std::min(view.bias + kernel.radius * view.texel * w * slope, 0.5 * to.distance);
     const glm::dvec4 at = view.view_to_map * glm::dvec4(receiver.position + moved * to.direction, 1);
     if (at.w <= 0) return std::nullopt;
@@ -100,9 +108,27 @@ std::optional<Lookup> biased_lookup(const LookupScene& scene, const ShadowView& 
                   .is_face = has_faces(scene.lights[view.light])};
 }
 
+// Planes go through the map's projection as covectors.
+glm::dvec2 plane_gradient(const ShadowView& view, const Lookup& at, const glm::dvec3& normal) {
+    const glm::dmat4 to_view = glm::inverse(view.view_to_map);
+    const glm::dvec4 position = to_view * glm::dvec4(at.u / double(at.size), at.depth, 1);
+    const glm::dvec4 plane(normal, -glm::dot(normal, glm::dvec3(position)) / position.w);
+    const glm::dvec4 in_map = glm::transpose(to_view) * plane;
+    if (in_map.z == 0) return glm::dvec2(0);
+    return -glm::dvec2(in_map) / in_map.z / double(view.size);
+}
+
 std::optional<Lookup> fixed_place(const LookupScene& scene, const ShadowView& view, const Receiver& receiver) {
     const double taps = double(scene.taps());
-    return biased_lookup(scene, view, receiver, {.radius = std::sqrt(0.5) * taps + 0.5, .reach = taps});
+    auto at = biased_lookup(scene, view, receiver, {.radius = std::sqrt(0.5) * taps + 0.5, .reach = taps});
+    const Towards to = to_light(scene, view, receiver);
+    const double tangent = tangent_of(view, receiver, to), slope = std::min(tangent, double(scene.filter.slope_limit));
+    if (!at || slope <= moved_slope) return at;
+    at->rise = (slope - moved_slope) / tangent * plane_gradient(view, *at, receiver.normal);
+    // A float's rounding of the normal and of the plane's rise weighs more the more the plane is seen edge on: by its tangent.
+    at->doubt += 1e-6 * tangent * taps * glm::length(at->rise);
+    if (std::abs(glm::dot(receiver.normal, to.direction)) < 2e-3) at->doubt = 1;
+    return at;
 }
 
 Filtered fixed_lookup(const LookupScene& scene, const ShadowView& view, const Receiver& receiver) {

@@ -31,6 +31,9 @@ struct KernelSize {
 };
 std::optional<Lookup> biased_lookup(const LookupScene&, const ShadowView&, const Receiver&, KernelSize);
 
+/// What a plane with this normal, through a lookup's place, gains in map depth per texel; zero where it is seen edge on.
+glm::dvec2 plane_gradient(const ShadowView&, const Lookup&, const glm::dvec3& normal);
+
 /// Where a fixed kernel is looked up; nothing where it does not touch the map.
 std::optional<Lookup> fixed_place(const LookupScene&, const ShadowView&, const Receiver&);
 /// The share of one map that it lights.

@@ -49,11 +49,12 @@ constexpr std::string_view make_map = R"(
     })";
 
 // Receivers lie anywhere in the map and up to `margin` texels beyond it: exactly at the depth of a texel nearby, near it,
-// anywhere, or nowhere (NaN); or `bias` above the ground.
+// anywhere, or nowhere (NaN); or `bias` above the ground. A fourth of those that have no bias follow a plane.
 constexpr std::string_view ask = R"(
     layout(local_size_x = 64) in;
     layout(constant_id = 5) const float bias = 0.0;
     layout(constant_id = 6) const float margin = 9.0;
+    layout(constant_id = 7) const float steepest = 0.0;
     layout(set = 0, binding = 0) uniform sampler2DArray shadow_maps;
     layout(set = 0, binding = 1, scalar) buffer Found { uint found[5]; };
     layout(push_constant, scalar) uniform Push { uint queries; uint x; uint y; uint size; uint is_face; };
@@ -68,7 +69,7 @@ constexpr std::string_view ask = R"(
         const uint query = gl_GlobalInvocationID.x;
         if (query >= queries) return;
         const uint a = hashed(query), b = hashed(a), c = hashed(b);
-        MapPoint p = MapPoint(ivec3(x, y, 0), int(size), is_face == 1u, true, vec2(0.0), 0.0, vec2(0.0), 0.0);
+        MapPoint p = MapPoint(ivec3(x, y, 0), int(size), is_face == 1u, true, vec2(0.0), 0.0, vec2(0.0), 0.0, vec2(0.0));
         p.u = (vec2(unit(a), unit(b)) * (float(size) + 2.0 * margin)) - margin;
         if (bias > 0.0) {
             p.depth = 0.3 + 6e-4 * p.u.x + 2e-4 * p.u.y + bias;
@@ -79,6 +80,8 @@ constexpr std::string_view ask = R"(
             if (kind == 1u) p.depth += 4e-3 * (2.0 * unit(hashed(c)) - 1.0);
             if (kind == 2u) p.depth = 1.2 * unit(hashed(c)) - 0.1;
             if (kind == 3u && (c >> 8 & 63u) == 0u) p.depth = uintBitsToFloat(0x7fc00000u);
+            const uint d = hashed(c);
+            if ((c >> 14 & 3u) == 0u) p.rise = steepest * (vec2(unit(hashed(d)), unit(hashed(d + 1u))) - 0.5);
         }
         uint answer;
         const float early = early_share(p, answer);
@@ -110,6 +113,7 @@ struct Query {
     BoundsSettings bounds;
     float bias = 0;       ///< 0: receivers anywhere
     glm::ivec2 shift{0};  ///< texels by which windows lie off their blocks
+    float steepest = 0;   ///< twice the most that planes of receivers rise along an axis, depth per texel
 
     /// Where neither the ground nor windows end.
     bool is_inside() const { return bias > 0 || shift != glm::ivec2(0); }
@@ -150,6 +154,7 @@ Answers ask_device(const Query& query) {
             .fixes("shadow_kernel", std::int32_t(2) << query.params.filter.kernel)
             .fixes("bounds_form", query.params.form)
             .fixes("bias", query.bias)
+            .fixes("steepest", query.steepest)
             .fixes("margin", query.is_inside() ? -16.f : 9.f)
             .push(AskPush{count, view.offset.x, view.offset.y, view.size, is_face ? 1u : 0u})
             .over({count});
@@ -166,7 +171,8 @@ MinMaxParams params_of(std::uint32_t form, std::uint32_t kernel, std::uint32_t b
 
 void expect_no_mismatch(const MinMaxParams& params, std::uint32_t count) {
     for (std::uint32_t scene = 0; scene < scenes.size(); ++scene) {
-        const Answers answers = ask_device({.scene = scene, .count = count, .params = params, .bounds = params.bounds()});
+        const Answers answers =
+            ask_device({.scene = scene, .count = count, .params = params, .bounds = params.bounds(), .steepest = 4e-3f});
         const std::string where = fmt::format("{}: form {}, kernel {}, block {}", scenes[scene], params.form,
                                               2u << params.filter.kernel, 2u << params.block);
         EXPECT_EQ(answers.lit + answers.shadowed + answers.expensive, count) << where;

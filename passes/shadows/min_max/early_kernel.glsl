@@ -21,8 +21,20 @@ uint weight_in(KernelPlace k, ivec2 begin, int edge) {
     return (weight_before(b.x, k.f.x) - weight_before(a.x, k.f.x)) * (weight_before(b.y, k.f.y) - weight_before(a.y, k.f.y));
 }
 
-// The depth that every texel is compared with where the receiver has no gradient.
+// The least depth that a texel is compared with where the receiver has no gradient.
 float compared_depth(MapPoint p) { return max(p.depth, 0.0); }
+
+// What the receiver's plane rises at most over the kernel, and over half a texel more against rounding.
+float greatest_rise(MapPoint p) {
+    const ivec2 first = kernel_place(p.u).first, last = first + (shadow_kernel - 1);
+    const vec2 to_first = vec2(kept_on_face(p, first)) + 0.5 - p.u, to_last = vec2(kept_on_face(p, last)) + 0.5 - p.u;
+    return dot(abs(p.rise), max(abs(to_first), abs(to_last)) + 0.5);
+}
+
+uint class_of(MapPoint p, vec2 extremes, float depth) {
+    const uint found = bounds_class(extremes, depth);
+    return found == class_shadowed && depth + greatest_rise(p) >= extremes.x ? class_expensive : found;
+}
 
 // --- hierarchical -----------------------------------------------------------------------------------------------------------
 
@@ -34,7 +46,7 @@ uint class_of_node(MapPoint p, int level, ivec2 node) {
     vec2 extremes = vec2(0.0);
     if (all(greaterThanEqual(node, ivec2(0))) && all(lessThan(begin, ivec2(p.size))))
         extremes = extremes_of_node(p.corner, level, node);
-    return bounds_class(extremes, compared_depth(p));
+    return class_of(p, extremes, compared_depth(p));
 }
 
 bool compares_texels = false;  // this lookup
@@ -111,7 +123,8 @@ uint class_by_plane(inout MapPoint p) {
     const ivec2 block = block_of(p.size, p.u);
     const vec4 plane = bounds_texel(p.corner, block);
     p.gradient = plane.zw;
-    return bounds_class(plane.xy, max(p.depth + dot(p.gradient, window_center(block) - p.u), 0.0));
+    if (p.gradient != vec2(0.0)) p.rise = vec2(0.0);
+    return class_of(p, plane.xy, max(p.depth + dot(p.gradient, window_center(block) - p.u), 0.0));
 }
 
 uint class_by_bounds(inout MapPoint p) {
@@ -121,7 +134,7 @@ uint class_by_bounds(inout MapPoint p) {
     if (bounds_form == form_block) bounds = extremes_between(p, first, last);
     else if (bounds_form == form_overlapping) bounds = extremes_at(p.corner, p.size, p.u);
     else bounds = slab_at(p.corner, p.size, p.u, first, last);
-    return bounds_class(bounds, compared_depth(p));
+    return class_of(p, bounds, compared_depth(p));
 }
 
 // --- the lookup -------------------------------------------------------------------------------------------------------------

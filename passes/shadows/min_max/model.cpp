@@ -28,6 +28,7 @@ Filtered plane_lookup(const LookupScene& scene, const ShadowView& view, const Re
     if (at->size < settings.block) return filter_map(scene.maps, *at, scene.taps());
     const FittedSlab fitted = slab_of(scene.maps, *at, settings);
     at->gradient = fitted.kept.slope;
+    if (fitted.kept.is_tilted()) at->rise = glm::dvec2(0);
     Filtered found = filter_map(scene.maps, *at, scene.taps());
     const bool is_close_call = std::abs(fitted.width / double(plane_tolerance) - 1) < float_share;
     if (is_close_call || is_near_an_edge(at->u, settings.block)) found.undecided = true;

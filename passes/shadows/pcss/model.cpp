@@ -19,16 +19,6 @@ namespace {
 // Half the widest penumbra, and the other texel of a bilinear comparison.
 constexpr double soft_reach = 32 + 1;
 
-// What the plane through the biased receiver gains in depth per texel: planes go through the map's projection as covectors.
-glm::dvec2 plane_gradient(const ShadowView& view, const Lookup& at, const glm::dvec3& normal) {
-    const glm::dmat4 to_view = glm::inverse(view.view_to_map);
-    const glm::dvec4 position = to_view * glm::dvec4(at.u / double(at.size), at.depth, 1);
-    const glm::dvec4 plane(normal, -glm::dot(normal, glm::dvec3(position)) / position.w);
-    const glm::dvec4 in_map = glm::transpose(to_view) * plane;
-    if (in_map.z == 0) return glm::dvec2(0);
-    return -glm::dvec2(in_map) / in_map.z / double(view.size);
-}
-
 // Interleaved gradient noise (Jimenez 2014).
 double pixel_turn(const Receiver& receiver) {
     const auto fraction = [](double x) { return x - std::floor(x); };
