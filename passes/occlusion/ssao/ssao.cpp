@@ -208,8 +208,9 @@ Technique ssao() {
         .params = params(),
         .variants = {"ao_taps=8", "ao_taps=12", "ao_taps=96", "ao_taps=96 ao_blur=off", "ao_blur=off",
                      "ao_blur=off ao_noise=none", "ao_noise=hash", "ao_resolution=half", "ao_resolution=half ao_taps=8",
-                     "ao_edge_stop=depth", "ao_radius=50cm", "ao_material=min", "ao_form=xray", "ao_form=xray ao_taps=8",
-                     "ao_form=xray ao_taps=96", "ao_form=xray ao_edge_stop=depth ao_resolution=half"},
+                     "ao_edge_stop=depth", "ao_radius=1m", "ao_radius=2m", "ao_radius=4m", "ao_material=min",
+                     "ao_form=xray ao_radius=2m", "ao_form=xray ao_radius=2m ao_taps=8", "ao_form=xray ao_radius=2m ao_taps=96",
+                     "ao_form=xray ao_radius=2m ao_edge_stop=depth ao_resolution=half"},
         .counters = {counter<&SsaoCounters::samples>(
                          {.name = "samples", .help = "samples for which ambient visibility was estimated from taps"}),
                      counter<&SsaoCounters::taps>({.name = "taps", .help = "depth taps read by all estimates"}),

@@ -112,7 +112,7 @@ TEST(Ssao, OfAPlaneWithExactDepthIsExactly1) {
 // The wall faces the eye; the floor before it is looked at from 1.5 m above.
 TEST(Ssao, HorizonsBeforeAWallLeaveWhatTheClosedFormSays) {
     const Scene scene(192, 108, {floor_plane, {{0, 0, -1}, -6}});
-    const ReferenceImage image = scene.occlusion({"ao_taps=96"});
+    const ReferenceImage image = scene.occlusion({"ao_taps=96", "ao_radius=2m"});
     int compared = 0;
     for (std::uint32_t y = 54; y < 108; y += 3) {
         const glm::dvec4 surface = scene.before.at("surface_normal").at(96, y);
@@ -125,9 +125,31 @@ TEST(Ssao, HorizonsBeforeAWallLeaveWhatTheClosedFormSays) {
     EXPECT_GE(compared, 4);
 }
 
+// Both planes of a corner 3 m away, wherever they occlude each other: what lies beyond the picture or between taps is missed.
+TEST(Ssao, AtItsDefaultRadiusIsNearTheClosedFormOfACorner) {
+    const double wall = 3, eye_height = 1.5;
+    const Scene scene(160, 90, {floor_plane, {{0, 0, -1}, -wall}});
+    const auto bias = [&](double radius, const std::vector<std::string>& sets) {
+        const ReferenceImage image = scene.occlusion(sets);
+        double sum = 0, count = 0;
+        for (std::uint32_t y = 0; y < 90; ++y)
+            for (std::uint32_t x = 0; x < 160; ++x) {
+                const glm::dvec4 surface = scene.before.at("surface_normal").at(x, y);
+                const glm::dvec3 at = pixel_ray(scene.frame, x + 0.5, y + 0.5) * surface.w;
+                const double away = surface.y != 0 ? wall - at.z : at.y + eye_height;
+                if (away >= radius) continue;
+                sum += image.at(x, y).x - wall_leaves(away / radius);
+                ++count;
+            }
+        return sum / count;
+    };
+    EXPECT_NEAR(bias(0.5, {}), 0, 0.03);
+    EXPECT_GT(bias(2, {"ao_radius=2m"}), 0.06);
+}
+
 TEST(Ssao, SlicesTurnAboutTheWayToTheEyeSoThatTheBorderOfThePictureIsAsDarkAsItsMiddle) {
     const Scene scene(192, 108, {floor_plane, {{0, 0, -1}, -6}});
-    const ReferenceImage image = scene.occlusion({"ao_taps=96"});
+    const ReferenceImage image = scene.occlusion({"ao_taps=96", "ao_radius=2m"});
     for (std::uint32_t y = 70; y < 84; y += 4) EXPECT_NEAR(image.at(24, y).x, image.at(96, y).x, .03) << y;
 }
 
@@ -135,7 +157,7 @@ TEST(Ssao, XRayInAPitIsWhatTheWeightsOfTheChapterGive) {
     // A pixel half a meter behind all others: taps at l = .51 and .53 m with influences .985 and .944.
     Scene scene(320, 180, {{{0, 0, -1}, -9.5}});
     scene.surface(160, 90).w = 10;
-    const ReferenceImage image = scene.occlusion({"ao_form=xray", "ao_taps=8", "ao_blur=off"});
+    const ReferenceImage image = scene.occlusion({"ao_form=xray", "ao_radius=2m", "ao_taps=8", "ao_blur=off"});
     EXPECT_NEAR(image.at(160, 90).x, .608, .01);
 }
 
