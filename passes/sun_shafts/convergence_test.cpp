@@ -1,5 +1,11 @@
 // Marched sun shafts approach the scattering integral as maps and steps grow finer: the march knows nothing of exact intervals,
 // and the truth nothing of maps.
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "capture_format/frame.h"
@@ -24,27 +30,67 @@ ReferenceImage traced_depth(const Frame& frame) {
     return depth;
 }
 
-/// Relative root mean square error of `beams`.
-double error(std::uint32_t map_size, const char* steps) {
-    Frame frame = (*find_scenario("beams"))->build(0, {.width = 32, .height = 18});
-    frame.sun.shadow.map_size = map_size;
-    frame.sun.shadow.bias = 1e-3f;
-    const ImageSet before{{"depth_layers", traced_depth(frame)}, {"shadow_maps", traced_maps(frame)}};
-    static const std::vector<Param> params = march_params();
-    Settings settings(params);
-    EXPECT_TRUE(settings.set("shaft_steps", steps));
-    const ReferenceImage truth = sun_shafts_truth({frame, before}).at("shafts");
-    ReferenceImage marched = march_model({frame, before}, settings).at("shafts");
-    marched.undecided.clear();
-    return difference(marched, truth).relative;
-}
+/// `beams` with maps and depths by rays, and the integral.
+struct Beams {
+    Frame frame;
+    ImageSet before;
+    ReferenceImage truth;
+
+    Beams(std::uint32_t width, std::uint32_t height, std::uint32_t map_size)
+        : frame((*find_scenario("beams"))->build(0, {.width = width, .height = height})) {
+        frame.sun.shadow.map_size = map_size;
+        frame.sun.shadow.bias = 1e-3f;
+        before = {{"depth_layers", traced_depth(frame)}, {"shadow_maps", traced_maps(frame)}};
+        truth = sun_shafts_truth({frame, before}).at("shafts");
+    }
+    ReferenceImage marched(const std::vector<std::pair<const char*, const char*>>& sets) const {
+        static const std::vector<Param> params = march_params();
+        Settings settings(params);
+        for (const auto& [name, value] : sets) EXPECT_TRUE(settings.set(name, std::string_view(value)));
+        ReferenceImage image = march_model({frame, before}, settings).at("shafts");
+        image.undecided.clear();
+        return image;
+    }
+    double error(const ReferenceImage& image) const { return difference(image, truth).relative; }
+    /// Of the difference between neighbors in a row that the truth says are alike and lit: within 2 %.
+    double variance_of_neighbors(const ReferenceImage& image) const {
+        double sum = 0, count = 0;
+        for (std::uint32_t y = 0; y < truth.height; ++y)
+            for (std::uint32_t x = 0; x + 1 < truth.width; ++x) {
+                const double a = truth.at(x, y).x, b = truth.at(x + 1, y).x;
+                if (!(a > 0) || std::abs(a - b) > 0.02 * a) continue;
+                sum += std::pow((image.at(x + 1, y).x - image.at(x, y).x) / a, 2);
+                ++count;
+            }
+        EXPECT_GT(count, 100);
+        return sum / count;
+    }
+};
 
 TEST(SunShaftsConvergence, FinerMapsAndMoreStepsApproachTheIntegral) {
-    const double coarse = error(128, "32"), finer = error(128, "128"), finest = error(512, "128");
-    RecordProperty("errors", std::to_string(coarse) + " " + std::to_string(finer) + " " + std::to_string(finest));
-    EXPECT_LT(finer, coarse);
+    const Beams coarse(32, 18, 128), fine(32, 18, 512);
+    const auto error = [](const Beams& beams, const char* steps) {
+        return beams.error(beams.marched({{"shaft_steps", steps}, {"shaft_blur", "off"}}));
+    };
+    const double coarsest = error(coarse, "32"), finer = error(coarse, "128"), finest = error(fine, "128");
+    RecordProperty("errors", std::to_string(coarsest) + " " + std::to_string(finer) + " " + std::to_string(finest));
+    EXPECT_LT(finer, coarsest);
     EXPECT_LT(finest, .5 * finer);
     EXPECT_LT(finest, .03);
+}
+
+TEST(SunShaftsConvergence, TheBlurTakesThreeFourthsOfTheVarianceBetweenNeighborsAndAddsNoError) {
+    for (const glm::uvec2 extent : {glm::uvec2(64, 36), glm::uvec2(96, 54)}) {
+        const Beams beams(extent.x, extent.y, 256);
+        for (const char* steps : {"16", "32"}) {
+            const ReferenceImage sharp =
+                beams.marched({{"shaft_steps", steps}, {"shaft_jitter", "interleaved_gradient"}, {"shaft_blur", "off"}});
+            const ReferenceImage blurred = beams.marched({{"shaft_steps", steps}});
+            EXPECT_LT(beams.variance_of_neighbors(blurred), .25 * beams.variance_of_neighbors(sharp))
+                << extent.x << ", " << steps;
+            EXPECT_LE(beams.error(blurred), beams.error(sharp)) << extent.x << ", " << steps;
+        }
+    }
 }
 
 }  // namespace

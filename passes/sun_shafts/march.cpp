@@ -16,8 +16,11 @@ namespace {
 
 constexpr auto tap_counts = choice_names({{taps_1, "1"}, {taps_4, "4"}});
 constexpr auto steppings = choice_names({{stepping_stratified, "stratified"}, {stepping_xray, "xray"}});
-constexpr auto jitters =
-    choice_names({{jitter_none, "none"}, {jitter_interleaved_gradient, "interleaved_gradient"}, {jitter_hash, "hash"}});
+constexpr auto jitters = choice_names({{jitter_none, "none"},
+                                       {jitter_interleaved_gradient, "interleaved_gradient"},
+                                       {jitter_hash, "hash"},
+                                       {jitter_interleaved, "interleaved"}});
+constexpr std::string_view switches[] = {"off", "on"};
 constexpr auto resolutions = choice_names({{resolution_full, "full"}, {resolution_half, "half"}});
 constexpr auto extinctions = choice_names({{extinction_integrated, "integrated"}, {extinction_sampled, "sampled"}});
 constexpr auto normalizations = choice_names({{normalization_physical, "physical"}, {normalization_steps, "steps"}});
@@ -85,6 +88,7 @@ struct Stored {
     const char* name;
     std::uint32_t divisor = 1, layers = 1;
     std::uint32_t shows_decided = 0;  ///< 1: the share of decided steps in place of shafts
+    bool keeps_share = false;         ///< the lit share in place of radiance
 };
 
 Image stored(Graph& graph, const MarchWork& work, const Stored& what) {
@@ -110,9 +114,23 @@ Image stored(Graph& graph, const MarchWork& work, const Stored& what) {
         .fixes("has_maps", has_sun_maps(frame) ? 1u : 0u)
         .fixes("allocation", frame.shadow_filter.allocation)
         .fixes("shows_decided", what.shows_decided)
+        .fixes("keeps_share", what.keeps_share ? 1u : 0u)
         .fixes("segment", shader.bounds ? shader.bounds->segment : 1u)
         .over({extent.width, extent.height, what.layers});
     return image;
+}
+
+Image blur(Graph& graph, const MarchWork& work, const Image& shares) {
+    const bool is_half = work.params.resolution == resolution_half;
+    const Shape shape = graph.shape(shares);
+    Image blurred = graph.create(is_half ? "blurred shares" : "shafts", shape);
+    sample_edges(read_rays(graph.compute("sun_shafts/blur.comp"), work.frame, work.params), work.frame)
+        .samples("shares", shares)
+        .stores("blurred", blurred)
+        .fixes("steps", work.params.steps)
+        .fixes("divisor", is_half ? 2u : 1u)
+        .over({shape.extent.width, shape.extent.height, shape.layers});
+    return blurred;
 }
 
 }  // namespace
@@ -126,10 +144,15 @@ bool has_sun_maps(const FrameImages& frame) { return frame.recorded->sun.shadow.
 
 void march_shafts(Graph& graph, FrameImages& frame, const Settings& settings, const MarchShader& shader) {
     const MarchWork march{frame, settings.as<MarchParams>(), shader};
-    const bool is_half = march.params.resolution == resolution_half;
-    const Image marched = is_half ? stored(graph, march, {.name = "lit shares", .divisor = 2})
-                                  : stored(graph, march, {.name = "shafts", .layers = frame.samples});
-    frame.shafts = is_half ? upsample(graph, frame, march.params, marched) : marched;
+    const bool is_half = march.params.resolution == resolution_half, blurs = march.params.blur != 0;
+    Image shafts = stored(graph, march,
+                          {.name = is_half || blurs ? "lit shares" : "shafts",
+                           .divisor = is_half ? 2u : 1u,
+                           .layers = is_half ? 1 : frame.samples,
+                           .keeps_share = is_half || blurs});
+    if (blurs) shafts = blur(graph, march, shafts);
+    if (is_half) shafts = upsample(graph, frame, march.params, shafts);
+    frame.shafts = shafts;
 }
 
 Image show_decided(Graph& graph, FrameImages& frame, const Settings& settings, const MarchShader& shader) {
@@ -151,13 +174,19 @@ std::vector<Param> march_params() {
                                        .help = "places of steps: one in each stratum, or X-Ray's, from the surface to the eye",
                                        .choices = steppings}),
         param<&MarchParams::jitter>({.name = "shaft_jitter",
-                                     .fallback = jitter_interleaved_gradient,
-                                     .help = "offset of a pixel's steps: none, a fixed gradient, or a hash of pixel and frame",
+                                     .fallback = jitter_interleaved,
+                                     .help = "offset of a pixel's steps: none, a fixed gradient, a hash of pixel and frame, or a "
+                                             "4x4 pattern",
                                      .choices = jitters}),
         param<&MarchParams::resolution>({.name = "shaft_resolution",
                                          .fallback = resolution_full,
                                          .help = "half marches one of 2x2 pixels and upsamples by depth",
                                          .choices = resolutions}),
+        param<&MarchParams::blur>(
+            {.name = "shaft_blur",
+             .fallback = 1,
+             .help = "averages alike lit shares over 5x5 texels of similar depth; removes the interleaved pattern",
+             .choices = switches}),
         param<&MarchParams::extinction>(
             {.name = "shaft_extinction",
              .fallback = extinction_integrated,

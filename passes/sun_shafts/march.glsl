@@ -12,7 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 2) const uint steps = 32u;
 layout(constant_id = 3) const uint taps = taps_4;
 layout(constant_id = 4) const uint stepping = stepping_stratified;
-layout(constant_id = 5) const uint jitter = jitter_interleaved_gradient;
+layout(constant_id = 5) const uint jitter = jitter_interleaved;
 layout(constant_id = 6) const uint extinction = extinction_integrated;
 layout(constant_id = 7) const uint cascade = cascade_of_step;
 layout(constant_id = 8) const uint divisor = 1u;   // pixels a side for which one ray is marched
@@ -20,6 +20,7 @@ layout(constant_id = 9) const uint has_maps = 0u;  // 0: the sun casts no shadow
 layout(constant_id = 10) const uint allocation = 0u;  // Allocation of passes/scene/shadow_views.h
 layout(constant_id = 11) const uint shows_decided = 0u;  // 1: the share of steps answered without the map is stored instead
 layout(constant_id = 12) const uint segment = 1u;        // steps that are_decided() is asked about at once; 1: it is not asked
+layout(constant_id = 14) const uint keeps_share = 0u;    // 1: the lit share is stored, which later steps make radiance of
 
 layout(set = 0, binding = 0) uniform sampler2DArray shadow_maps;
 layout(set = 0, binding = 1, rgba16f) writeonly uniform image2DArray shafts;
@@ -41,10 +42,14 @@ bool is_decided(MapRay map, vec3 at, inout Tally tally, out float lit);
 // The same of all steps of a segment, whose places lie between those of the first and of the last.
 bool are_decided(MapRay map, vec3 first, vec3 last, inout Tally tally, out float lit);
 
+uint bayer_2(uvec2 bits) { return 2u * (bits.x ^ bits.y) + bits.y; }
+
 // Where the first step lies in its stratum, 0 to 1. In integers, so that all devices draw the same numbers: the gradient is that
-// of Jimenez 2014, fract(52.9829189 fract(.06711056 x + .00583715 y)), in units of 2^-32.
+// of Jimenez 2014, fract(52.9829189 fract(.06711056 x + .00583715 y)), in units of 2^-32. The interleaved pattern is Bayer's 4 x 4 matrix:
+// a blur over 4 x 4 texels has 16 times as many steps.
 float jitter_at(uvec2 texel) {
     if (jitter == jitter_none) return stepping == stepping_xray ? 0.0 : 0.5;
+    if (jitter == jitter_interleaved) return (float(4u * bayer_2(texel & 1u) + bayer_2(texel >> 1u & 1u)) + 0.5) / 16.0;
     uint drawn;
     if (jitter == jitter_hash) {
         drawn = hashed(view.seed, uvec3(texel, view.frame_index));
@@ -178,7 +183,7 @@ void count(Tally tally) {
     atomicAdd(counters.kilosteps_in_segments, carried(atomicAdd(counters.in_segments, all.w), all.w));
 }
 
-// Radiance; where one ray stands for 2 x 2 pixels the share alone, which upsample.comp makes radiance of.
+// Radiance, or the share alone, which blur.comp or upsample.comp makes radiance of.
 void main() {
     const ivec3 texel = ivec3(gl_GlobalInvocationID), at = ivec3(texel.xy * int(divisor), texel.z);
     if (any(greaterThanEqual(texel, imageSize(shafts))) || at.z > 0 && is_plain(at.xy)) return;
@@ -186,7 +191,7 @@ void main() {
     Tally tally = Tally(0u, 0u, 0u, 0u);
     const float share = lit_share_of(ray, uvec2(texel.xy), tally);
     count(tally);
-    vec3 result = divisor > 1u ? vec3(share) : share * scattered(ray.meters) * push.radiance * phase_factor(ray.direction);
+    vec3 result = keeps_share != 0u ? vec3(share) : share * scattered(ray.meters) * push.radiance * phase_factor(ray.direction);
     if (shows_decided != 0u) result = vec3(float(tally.skipped + tally.in_segments) / float(steps));
     imageStore(shafts, texel, vec4(result, 1.0));
     if (!is_plain(at.xy)) return;

@@ -16,6 +16,7 @@ const uint stepping_xray = 1u;
 const uint jitter_none = 0u;
 const uint jitter_interleaved_gradient = 1u;
 const uint jitter_hash = 2u;
+const uint jitter_interleaved = 3u;
 // shaft_resolution
 const uint resolution_full = 0u;
 const uint resolution_half = 1u;

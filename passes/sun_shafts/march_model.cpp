@@ -4,9 +4,9 @@
 #include "passes/sun_shafts/march_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -115,6 +115,10 @@ double March::drawn(glm::uvec2 texel) const {
         for (const std::uint32_t part : {texel.x, texel.y, static_cast<std::uint32_t>(input.frame.index)}) h = pcg(h ^ part);
         return ((h >> 16) + 0.5) / 65536;
     }
+    if (params.jitter == jitter_interleaved) {
+        constexpr std::array<int, 16> bayer = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
+        return (bayer.at(texel.y % 4 * 4 + texel.x % 4) + 0.5) / 16;
+    }
     const double gradient = 52.9829189 * glm::fract(0.06711056 * texel.x + 0.00583715 * texel.y);
     return (std::floor(65536 * glm::fract(gradient)) + 0.5) / 65536;
 }
@@ -201,41 +205,88 @@ glm::dvec3 March::radiance(const MarchedRay& ray) const {
     return glm::dvec3(input.frame.sun.irradiance) * factor * (scatters_by_step() ? double(params.intensity) : 1 / (4 * pi));
 }
 
-/// Rays of one of 2 x 2 pixels, for all of them.
-class HalfMarch {
+/// What every march found, one for `divisor` x `divisor` pixels.
+class Shares {
 public:
-    explicit HalfMarch(const March& march)
+    explicit Shares(const March& march)
         : march_(march),
-          width_((march.depths.width + 1) / 2),
-          height_((march.depths.height + 1) / 2),
-          shares_(std::size_t(width_) * height_) {
-        tbb::parallel_for(0u, height_, [&](std::uint32_t y) {
-            for (std::uint32_t x = 0; x < width_; ++x)
-                shares_[y * width_ + x] = march.marched(march.ray_to(2 * x, 2 * y, 0), {x, y});
+          divisor_(march.params.resolution == resolution_half ? 2 : 1),
+          width_((march.depths.width + divisor_ - 1) / divisor_),
+          height_((march.depths.height + divisor_ - 1) / divisor_),
+          layers_(divisor_ > 1 ? 1 : march.depths.layers) {
+        fill([&](std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
+            return march_.marched(march_.ray_to(divisor_ * x, divisor_ * y, sample), {x, y});
         });
+        if (march.params.blur == 0) return;
+        const std::vector<Amount> from = amounts_;
+        fill([&](std::uint32_t x, std::uint32_t y, std::uint32_t sample) { return blurred(from, {x, y}, sample); });
     }
-    /// Bilinear among the four around a pixel, weighted by 1 / (1 + (32 dz / z)^2) of the rays' ends.
-    Amount at(std::uint32_t x, std::uint32_t y, const MarchedRay& ray) const {
+    /// Of a sample; among the four around a pixel bilinear where one stands for 2 x 2, by fit.
+    Amount of(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const {
+        if (divisor_ == 1) return amounts_[index(x, y, sample)];
+        const double z = march_.end_depth(x, y, sample);
         const glm::dvec2 part(0.5 * (x % 2), 0.5 * (y % 2));
         Amount sum;
         double weights = 0;
         for (std::uint32_t i = 0; i < 4; ++i) {
             const std::uint32_t dx = i % 2, dy = i / 2;
             const std::uint32_t tx = std::min(x / 2 + dx, width_ - 1), ty = std::min(y / 2 + dy, height_ - 1);
-            const double other = march_.end_depth(2 * tx, 2 * ty, 0);
-            const double off = 32 * (other - ray.z) / std::min(other, ray.z);
-            const double weight = (dx == 1 ? part.x : 1 - part.x) * (dy == 1 ? part.y : 1 - part.y) / (1 + off * off);
-            sum.share += weight * shares_[ty * width_ + tx].share;
-            sum.spread += weight * shares_[ty * width_ + tx].spread;
+            const double near = (dx == 1 ? part.x : 1 - part.x) * (dy == 1 ? part.y : 1 - part.y),
+                         weight = near * fit(z, tx, ty, 0);
+            sum.share += weight * amounts_[index(tx, ty, 0)].share;
+            sum.spread += weight * amounts_[index(tx, ty, 0)].spread;
             weights += weight;
         }
         return {sum.share / weights, sum.spread / weights};
     }
 
 private:
+    std::size_t index(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const {
+        return (std::size_t(sample) * height_ + y) * width_ + x;
+    }
+    /// 1 / (1 + (32 dz / z)^2) of the ends of rays.
+    double fit(double z, std::uint32_t x, std::uint32_t y, std::uint32_t sample) const {
+        const double other = march_.end_depth(divisor_ * x, divisor_ * y, sample);
+        const double off = 32 * (other - z) / std::min(other, z);
+        return 1 / (1 + off * off);
+    }
+    /// In plain pixels what the first sample has.
+    template <typename Make>
+    void fill(const Make& make) {
+        amounts_.resize(std::size_t(width_) * height_ * layers_);
+        tbb::parallel_for(0u, height_, [&](std::uint32_t y) {
+            for (std::uint32_t x = 0; x < width_; ++x)
+                for (std::uint32_t sample = 0; sample < layers_; ++sample) {
+                    const bool repeats = sample > 0 && is_plain_pixel(march_.input, x, y);
+                    amounts_[index(x, y, sample)] = repeats ? amounts_[index(x, y, 0)] : make(x, y, sample);
+                }
+        });
+    }
+    /// 5 x 5 texels, the outer ones half, by fit and by how many steps' shares lie between: 1 / (1 + (N dV)^2).
+    Amount blurred(const std::vector<Amount>& from, glm::ivec2 texel, std::uint32_t sample) const {
+        const glm::uvec2 center(texel);
+        const double z = march_.end_depth(divisor_ * center.x, divisor_ * center.y, sample);
+        const Amount& own = from[index(center.x, center.y, sample)];
+        double sum = 0, weights = 0, spreads = 0;
+        for (int dy = -2; dy <= 2; ++dy)
+            for (int dx = -2; dx <= 2; ++dx) {
+                const glm::ivec2 other = texel + glm::ivec2(dx, dy);
+                if (other.x < 0 || other.y < 0 || other.x >= int(width_) || other.y >= int(height_)) continue;
+                const glm::uvec2 at(other);
+                const Amount& there = from[index(at.x, at.y, sample)];
+                const double near = (std::abs(dx) == 2 ? 0.5 : 1) * (std::abs(dy) == 2 ? 0.5 : 1) * fit(z, at.x, at.y, sample);
+                const double apart = march_.params.steps * (there.share - own.share), weight = near / (1 + apart * apart);
+                sum += weight * there.share;
+                weights += weight;
+                spreads += near * there.spread;
+            }
+        // What rounding changes of a share changes its weight, too, and of the own one all weights.
+        return {sum / weights, spreads / weights + own.spread};
+    }
+
     const March& march_;
-    std::uint32_t width_, height_;
-    std::vector<Amount> shares_;
+    std::uint32_t divisor_, width_, height_, layers_;
+    std::vector<Amount> amounts_;
 };
 
 /// Marks texels whose colors rounding may move by too much.
@@ -252,8 +303,7 @@ void leave_out(ReferenceImage& image, std::span<const double> spreads) {
 ImageSet march_model(const StageInput& input, const Settings& settings) {
     if (!input.before.contains("depth_layers")) return {};
     const March march(input, settings.as<MarchParams>());
-    std::optional<HalfMarch> half;
-    if (march.params.resolution == resolution_half) half.emplace(march);
+    const Shares shares(march);
     const ReferenceImage& shape = march.depths;
     ReferenceImage shafts(shape.width, shape.height, shape.layers, {0, 0, 0, 1});
     std::vector<double> spreads(shafts.texels.size());
@@ -262,7 +312,7 @@ ImageSet march_model(const StageInput& input, const Settings& settings) {
             for (std::uint32_t sample = 0; sample < shape.layers; ++sample) {
                 const bool repeats = sample > 0 && is_plain_pixel(input, x, y);
                 const MarchedRay ray = march.ray_to(x, y, repeats ? 0 : sample);
-                const Amount found = half ? half->at(x, y, ray) : march.marched(ray, {x, y});
+                const Amount found = shares.of(x, y, repeats ? 0 : sample);
                 const glm::dvec3 whole = march.whole(ray) * march.radiance(ray);
                 const std::size_t texel = shafts.index(x, y, sample);
                 shafts.texels[texel] = glm::dvec4(found.share * whole, 1);

@@ -11,6 +11,7 @@ struct MarchParams {
     std::uint32_t stepping;
     std::uint32_t jitter;
     std::uint32_t resolution;
+    std::uint32_t blur;
     std::uint32_t extinction;
     std::uint32_t normalization;
     std::uint32_t phase;

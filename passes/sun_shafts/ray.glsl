@@ -22,6 +22,14 @@ float end_depth(ivec3 at) {
     return depth > 0.0 ? min(view_z(depth), push.far) : push.far;
 }
 
+// Of lit shares: relative difference of depths at which a neighbor counts half.
+const float depth_tolerance = 1.0 / 32.0;
+
+float fit(float z, float other) {
+    const float off = (other - z) / (depth_tolerance * min(z, other));
+    return 1.0 / (1.0 + off * off);
+}
+
 // x and y: the pixel; z: the sample.
 ShaftRay ray_to(ivec3 at) {
     const vec3 ray = view_ray(vec2(at.xy) + 0.5 + sample_place(view.samples, uint(at.z)));

@@ -9,14 +9,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform sampler2DArray shares;
 layout(set = 0, binding = 1, rgba16f) writeonly uniform image2DArray shafts;
 
-// Relative difference of depths at which a neighbor counts half.
-const float depth_tolerance = 1.0 / 32.0;
-
-float fit(float z, float other) {
-    const float off = (other - z) / (depth_tolerance * min(z, other));
-    return 1.0 / (1.0 + off * off);
-}
-
 float upsampled(ivec2 pixel, float z) {
     const ivec2 low = pixel / 2, odd = pixel % 2, last = textureSize(shares, 0).xy - 1;
     float sum = 0.0, weights = 0.0;

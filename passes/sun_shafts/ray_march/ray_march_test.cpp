@@ -130,6 +130,7 @@ TEST(RayMarch, InStrataIsUnbiasedWithTheDeviationOfTheChapter) {
     Tunnel tunnel(down, 64, 36);
     tunnel.end_at(tunnel.shadow_second_half() / .3137);
     std::vector<std::string> sets = xray("20", "stratified");
+    sets.push_back("shaft_blur=off");
     sets.push_back("shaft_jitter=hash");
     const ReferenceImage hashed = tunnel.shafts(sets);
     EXPECT_NEAR(mean(hashed), .3137, 3 * .0223 / 48);
@@ -244,6 +245,19 @@ TEST(RayMarch, AtHalfResolutionLeavesWhatIsLitThroughoutAtEveryDepth) {
         for (std::uint32_t y = 0; y < 5; ++y) tunnel.before["depth_layers"].at(x, y).x = .1 / (2 + x + 3 * y);
     const ReferenceImage full = tunnel.shafts({}), half = tunnel.shafts({"shaft_resolution=half"});
     for (std::size_t i = 0; i < full.texels.size(); ++i) EXPECT_NEAR(half.texels[i].x, full.texels[i].x, 1e-12);
+}
+
+TEST(RayMarch, BlursAlongSurfacesAndNotAcrossTheirEdges) {
+    Tunnel tunnel(down, 16, 9);
+    const double border = tunnel.shadow_second_half();
+    tunnel.end_at(2 * border);
+    for (std::uint32_t y = 0; y < 9; ++y)
+        for (std::uint32_t x = 0; x < 8; ++x) tunnel.before["depth_layers"].at(x, y).x *= 4;
+    const ReferenceImage sharp = tunnel.shafts({"shaft_jitter=none", "shaft_blur=off"}),
+                         blurred = tunnel.shafts({"shaft_jitter=none"});
+    EXPECT_GT(std::abs(sharp.at(7, 4).x - sharp.at(8, 4).x), .1 * sharp.at(8, 4).x);
+    for (std::size_t i = 0; i < sharp.texels.size(); ++i)
+        EXPECT_NEAR(blurred.texels[i].x, sharp.texels[i].x, .01 * sharp.texels[i].x);
 }
 
 TEST(RayMarch, AtPlainPixelsTheFirstSampleStandsForAll) {

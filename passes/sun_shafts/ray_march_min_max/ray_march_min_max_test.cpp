@@ -61,6 +61,7 @@ std::vector<std::string> steps(const Case& c) {
     Settings settings(technique.params);
     EXPECT_TRUE(settings.set("shaft_segment", std::string_view(c.segment)));
     EXPECT_TRUE(settings.set("shaft_bounds", std::string_view(c.bounds)));
+    EXPECT_TRUE(settings.set("shaft_blur", "off"));
     technique.declare(graph, images, settings);
     std::vector<std::string> names;
     for (const Step& step : graph.steps().subspan(before))
