@@ -34,6 +34,7 @@ struct MapPoint {
     vec2 gradient;
     float penumbra;  // its width in texels per depth between receiver and blocker
     vec2 rise;
+    float risen;     // what the receiver has moved for: of the rise, what is above it counts
 };
 
 ivec2 kept_on_face(MapPoint p, ivec2 texel) { return p.at_seams ? clamp(texel, ivec2(0), ivec2(p.size - 1)) : texel; }
@@ -47,7 +48,7 @@ float map_depth(MapPoint p, ivec2 texel) {
 // Of the receiver's plane over a texel's center.
 float plane_depth(MapPoint p, ivec2 texel) {
     const vec2 away = vec2(texel) + 0.5 - p.u;
-    return max(p.depth + dot(p.gradient, away) + max(dot(p.rise, away), 0.0), 0.0);
+    return max(p.depth + dot(p.gradient, away) + max(dot(p.rise, away) - p.risen, 0.0), 0.0);
 }
 
 uint is_lit(MapPoint p, ivec2 texel) {
@@ -190,9 +191,12 @@ float one_map(LightRecord light, uint record, vec3 position, vec3 normal, bool s
     if (any(lessThan(u, vec2(-reach))) || any(greaterThan(u, vec2(map.size + reach)))) return outside_share(record);
     const bool at_seams = !sun && light.shadow_slots > 1u;
     const ivec3 corner = ivec3(map.offset, map.layer);
-    MapPoint point = MapPoint(corner, int(map.size), at_seams, sun, u, at.z / at.w, vec2(0.0), 0.0, vec2(0.0));
+    MapPoint point = MapPoint(corner, int(map.size), at_seams, sun, u, at.z / at.w, vec2(0.0), 0.0, vec2(0.0), 0.0);
     if (!soft) {
-        if (slope > moved_slope) point.rise = (slope - moved_slope) / tangent * plane_gradient(map, at, normal);
+        if (slope > moved_slope) {
+            point.rise = slope / tangent * plane_gradient(map, at, normal);
+            point.risen = 0.70710678 * float(shadow_kernel) * moved_slope / slope * length(point.rise);
+        }
         return fixed_share(record, point);
     }
     point.gradient = plane_gradient(map, at, normal);

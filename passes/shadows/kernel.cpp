@@ -20,7 +20,7 @@ double weight(std::int64_t tap, std::int64_t taps, double fraction) {
 double depth_over(const Lookup& at, glm::ivec2 texel) {
     const glm::ivec2 kept = at.is_face ? glm::clamp(texel, glm::ivec2(0), glm::ivec2(static_cast<int>(at.size) - 1)) : texel;
     const glm::dvec2 away = glm::dvec2(kept) + 0.5 - at.u;
-    return at.depth + glm::dot(at.gradient, away) + std::max(glm::dot(at.rise, away), 0.0);
+    return at.depth + glm::dot(at.gradient, away) + std::max(glm::dot(at.rise, away) - at.risen, 0.0);
 }
 
 }  // namespace

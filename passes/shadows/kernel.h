@@ -19,7 +19,8 @@ struct Lookup {
     glm::uvec2 offset{0};
     bool is_face = false;    ///< of a cube: beyond its edges its outermost texels go on; else nothing is drawn there
     glm::dvec2 gradient{0};  ///< what the receiver gains in depth per texel: it is compared where it is over a texel's center
-    glm::dvec2 rise{0};      ///< the same, over texels alone where it is nearer to the light by that
+    glm::dvec2 rise{0};  ///< the same, over texels alone where it is nearer to the light by more than `risen`: by what is above
+    double risen = 0;    ///< depth
 };
 
 struct Filtered {

@@ -124,7 +124,8 @@ std::optional<Lookup> fixed_place(const LookupScene& scene, const ShadowView& vi
     const Towards to = to_light(scene, view, receiver);
     const double tangent = tangent_of(view, receiver, to), slope = std::min(tangent, double(scene.filter.slope_limit));
     if (!at || slope <= moved_slope) return at;
-    at->rise = (slope - moved_slope) / tangent * plane_gradient(view, *at, receiver.normal);
+    at->rise = slope / tangent * plane_gradient(view, *at, receiver.normal);
+    at->risen = std::sqrt(0.5) * taps * moved_slope / slope * glm::length(at->rise);
     // A float's rounding of the normal and of the plane's rise weighs more the more the plane is seen edge on: by its tangent.
     at->doubt += 1e-6 * tangent * taps * glm::length(at->rise);
     if (std::abs(glm::dot(receiver.normal, to.direction)) < 2e-3) at->doubt = 1;

@@ -69,7 +69,7 @@ constexpr std::string_view ask = R"(
         const uint query = gl_GlobalInvocationID.x;
         if (query >= queries) return;
         const uint a = hashed(query), b = hashed(a), c = hashed(b);
-        MapPoint p = MapPoint(ivec3(x, y, 0), int(size), is_face == 1u, true, vec2(0.0), 0.0, vec2(0.0), 0.0, vec2(0.0));
+        MapPoint p = MapPoint(ivec3(x, y, 0), int(size), is_face == 1u, true, vec2(0.0), 0.0, vec2(0.0), 0.0, vec2(0.0), 0.0);
         p.u = (vec2(unit(a), unit(b)) * (float(size) + 2.0 * margin)) - margin;
         if (bias > 0.0) {
             p.depth = 0.3 + 6e-4 * p.u.x + 2e-4 * p.u.y + bias;
@@ -82,6 +82,7 @@ constexpr std::string_view ask = R"(
             if (kind == 3u && (c >> 8 & 63u) == 0u) p.depth = uintBitsToFloat(0x7fc00000u);
             const uint d = hashed(c);
             if ((c >> 14 & 3u) == 0u) p.rise = steepest * (vec2(unit(hashed(d)), unit(hashed(d + 1u))) - 0.5);
+            p.risen = unit(hashed(d + 2u)) * (abs(p.rise.x) + abs(p.rise.y));
         }
         uint answer;
         const float early = early_share(p, answer);

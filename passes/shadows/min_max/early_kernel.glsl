@@ -28,7 +28,7 @@ float compared_depth(MapPoint p) { return max(p.depth, 0.0); }
 float greatest_rise(MapPoint p) {
     const ivec2 first = kernel_place(p.u).first, last = first + (shadow_kernel - 1);
     const vec2 to_first = vec2(kept_on_face(p, first)) + 0.5 - p.u, to_last = vec2(kept_on_face(p, last)) + 0.5 - p.u;
-    return dot(abs(p.rise), max(abs(to_first), abs(to_last)) + 0.5);
+    return max(dot(abs(p.rise), max(abs(to_first), abs(to_last)) + 0.5) - p.risen, 0.0);
 }
 
 uint class_of(MapPoint p, vec2 extremes, float depth) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -133,16 +134,18 @@ TEST(LowSun, LeavesFlatGroundLitDownTo3Degrees) {
 
 // The shadow of a wall begins at its foot, that of a sphere at its tangent through the ground: -r tan(elevation / 2).
 TEST(LowSun, DetachesNoShadowFartherThanTheMovedReceiverDoes) {
+    std::string gaps;
     for (const double elevation : {7., 3.}) {
         const double tangent_point = -radius * std::tan(0.5 * elevation * degree);
         for (const auto& [caster, begin] : {std::pair<Solid, double>{wall, 0}, {sphere, tangent_point}}) {
             const Scene scene = on_the_ground(elevation, caster);
-            const double half_texel = 0.5 * shadow_views(scene.frame)[0].texel / std::sin(elevation * degree);
             const double gap = next_crossing(scene.visibility(), begin, true) - begin,
                          moved = next_crossing(scene.visibility(4), begin, true) - begin;
-            EXPECT_LE(gap, moved + half_texel) << elevation;
+            gaps += std::to_string(gap) + " was " + std::to_string(moved) + ", ";
+            EXPECT_LE(gap, moved + 1.5 * pixel) << elevation;
         }
     }
+    RecordProperty("gaps", gaps);
 }
 
 TEST(LowSun, PutsTheShadowOfAPlateWhereItFalls) {
