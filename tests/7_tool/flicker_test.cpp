@@ -50,7 +50,7 @@ TEST(RowFlicker, IsOfTheTruthThatTheRowApproximatesWhateverRowsStandBeside) {
     const ReportRequest wanted{.base = {.variant = small}, .stage = Stage::occlusion, .flicker = Walk{.frames = 2, .dolly = .2}};
     std::vector<Request> rows(2, Request{.variant = small});
     rows[0].choices = chosen({"occlusion/ssao"});
-    rows[1].choices = chosen({"occlusion/ssao"}, {"ao_radius=50cm"});
+    rows[1].choices = chosen({"occlusion/ssao"}, {"ao_radius=1m"});
     const std::vector<MeasuredFlicker> both = must(measure_flicker(*session, wanted, rows, {}));
     EXPECT_GT(both[1].error, 0);
     EXPECT_EQ(both[1].error, must(measure_flicker(*session, wanted, std::span(rows).subspan(1), {})).front().error);

@@ -44,7 +44,7 @@ TEST(Reproduce, MeasuresWhatTheTestJudgedAtAllKindsOfSettings) {
          {"combine/hi_lo"},
          {"fog=linear", "fog_near=0.25", "fog_far=1e1"},
          "hi_lo fog=linear fog_near=0.25 fog_far=1e1"},
-        {"corners", 1, {"occlusion/ssao"}, {"ao_radius=50cm", "combine/hi_lo:resolve=lo_hi"}, "ssao ao_radius=50cm"},
+        {"corners", 1, {"occlusion/ssao"}, {"ao_radius=1m", "combine/hi_lo:resolve=lo_hi"}, "ssao ao_radius=1m"},
     };
     for (const Judged& one : all) {
         Request request = on_scenario(one.scenario, one.samples);
