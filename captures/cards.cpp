@@ -26,6 +26,7 @@ Frame frame_of_cards(std::span<const Card> cards, std::uint32_t extent) {
         material.double_sided = true;
         material.base_color = card.color;
         material.distortion = card.distortion;
+        material.transmission = card.transmission;
         glm::dmat4 to_world = glm::translate(glm::dmat4(1), card.center);
         to_world = glm::rotate(to_world, card.tilt, glm::dvec3(0, 1, 0));
         to_world = glm::scale(to_world, glm::dvec3(double(card.half)));

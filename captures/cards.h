@@ -17,7 +17,8 @@ struct Card {
     double tilt = 0;     ///< radians around the vertical axis
     std::int32_t sort_priority = 0;
     AlphaMode alpha_mode = AlphaMode::blend;
-    float distortion = 0;  ///< uv per unit of the normal, which a tilt turns
+    float distortion = 0;       ///< uv per unit of the normal, which a tilt turns
+    glm::vec3 transmission{0};  ///< as Material::transmission
 };
 
 /// Width = height = extent, black background, one draw per card in the given order.

@@ -43,21 +43,26 @@ std::vector<Frame> cards_far_apart() { return opaque_cards(.1); }
 std::vector<Frame> cards_at_a_fiftieth() { return opaque_cards(.02); }
 std::vector<Frame> cards_at_a_two_thousandth() { return opaque_cards(.0005); }
 
+// A wavelet of rank 2, the default, has cells of 2/7 on [-1, 1]: each card is where one of its own begins.
 std::vector<Frame> more_and_more_behind() {
+    constexpr double cell = 2. / 7, front = -1 + cell;
     std::vector<Frame> frames;
-    for (const int count : {1, 2, 3, 5, 8}) {
-        std::vector<Card> cards{gray(meters(.1), 1, .9f)};
-        for (int i = 1; i < count; ++i) cards.push_back(gray(meters(.1 + .02 * i), 0, .9f));
+    for (const int count : {1, 2, 3, 5, 6}) {
+        std::vector<Card> cards{gray(meters(front), 1, .9f)};
+        for (int i = 1; i < count; ++i) cards.push_back(gray(meters(front + cell * i), 0, .9f));
         frames.push_back(frame_of(cards));
     }
     return frames;
 }
 
-std::vector<Frame> moving_stack() {
+/// Drobot's harness: three cards that nothing passes, red, green and blue, while the eye moves over almost two cells of a
+/// wavelet.
+std::vector<Frame> three_cards_at_33_positions() {
     std::vector<Frame> frames;
     for (int step = 0; step < 33; ++step) {
         const double w = -.25 + .5 * step / 32;
-        frames.push_back(frame_of({gray(meters(w), 1, .9f), gray(meters(w + .02), 0, .9f)}));
+        frames.push_back(frame_of(
+            {layer(meters(w), {1, 0, 0}, 1), layer(meters(w + .02), {0, 1, 0}, 1), layer(meters(w + .04), {0, 0, 1}, 1)}));
     }
     return frames;
 }
@@ -144,6 +149,29 @@ std::vector<Frame> facade_far_away() {
     return {frame_of({gray(150, 1, .5f), gray(150.3, 0, .5f), layer(155, {1, 0, 0}, .95f), gray(152, .8f, .3f)}, glm::vec3(.5f))};
 }
 
+/// Three red cards at one depth, each half of what a byte of optical depth holds (T = 255^(-128/255), a code of 128), before a
+/// green one: a byte that wraps shows it. Where the codes fall among the slices moves from frame to frame.
+std::vector<Frame> more_than_a_byte_in_a_slice() {
+    std::vector<Frame> frames;
+    for (int step = 0; step < 8; ++step) {
+        const double z = meters(.004 * step);
+        frames.push_back(frame_of({layer(z, {1, 0, 0}, .9381f), layer(z, {1, 0, 0}, .9381f), layer(z, {1, 0, 0}, .9381f),
+                                   layer(meters(.4), {0, 1, 0}, 1)}));
+    }
+    return frames;
+}
+
+/// Five panes at one depth that let no red through, and all green and blue: more red than 10 bits hold, which carries into green.
+std::vector<Frame> more_red_than_ten_bits() {
+    std::vector<Frame> frames;
+    for (int step = 0; step < 8; ++step) {
+        Card pane = layer(meters(.004 * step), {.02f, 0, 0}, 1);
+        pane.transmission = {0, 1, 1};
+        frames.push_back(frame_of({pane, pane, pane, pane, pane, layer(meters(.4), glm::vec3(.8f), 1)}));
+    }
+    return frames;
+}
+
 /// A black wall in the depth buffer.
 std::vector<Frame> smoke_before_a_wall() {
     Card wall = gray(8, 0, 1);
@@ -175,9 +203,11 @@ constexpr auto hard_case_table = std::to_array<HardCase>({
      HardMeasure::error, .01, cards_far_apart},
     {"H1b cards close", "the same at .02", HardMeasure::error, .01, cards_at_a_fiftieth},
     {"H1c cards almost touching", "the same at .0005", HardMeasure::error, .02, cards_at_a_two_thousandth},
-    {"H2 more behind", "does a card of .9 look the same with 0, 1, 2, 4 and 7 cards behind it?", HardMeasure::unsteadiness, 2e-3,
-     more_and_more_behind},
-    {"H3 moving stack", "do two cards .02 apart look the same at 33 distances?", HardMeasure::unsteadiness, 5e-3, moving_stack},
+    {"H2 more behind",
+     "does a card of .9 look the same with 0, 1, 2, 4 and 5 cards behind it, each in a wavelet's cell of its own?",
+     HardMeasure::unsteadiness, 2e-3, more_and_more_behind},
+    {"H3 moving eye", "of three opaque cards .02 apart, how small does the front card's share become at 33 positions of the eye?",
+     HardMeasure::share, .01, three_cards_at_33_positions},
     {"H4 back-to-back glass", "which of two panes an eighth of an inch apart is in front, at .5, 2.5 and 10 m?",
      HardMeasure::error, .02, back_to_back_glass},
     {"H5 thin layers", "200 layers of .01 with a ramp of color: what is seen of them, and through them?", HardMeasure::error, .02,
@@ -193,6 +223,10 @@ constexpr auto hard_case_table = std::to_array<HardCase>({
     {"H10b unequal alphas", "the same of .9 and .1", HardMeasure::tie, 2e-3, two_unequal_coincident},
     {"H11 not a number", "does one bad particle among twenty change anything, bit by bit?", HardMeasure::change, 0,
      one_bad_particle},
+    {"H12a overflow", "are three cards in one slice, of 1.5 times what a byte holds, as opaque as they should be?",
+     HardMeasure::error, .02, more_than_a_byte_in_a_slice},
+    {"H12b carry", "do five panes in one slice that let no red through keep green and blue as they should be?",
+     HardMeasure::error, .03, more_red_than_ten_bits},
     {"H13 at 150 m", "panes .3 m apart, smoke and a car behind, all at 150 m", HardMeasure::error, .02, facade_far_away},
     {"H14a smoke before a wall", "smoke of .1 before a wall in the depth buffer", HardMeasure::error, 2e-3, smoke_before_a_wall},
     {"H14b smoke before a card", "smoke of .1 before a card of alpha 1", HardMeasure::error, .02, smoke_before_a_card},

@@ -16,6 +16,7 @@ enum class HardMeasure {
     unsteadiness,  ///< how much the difference from the truth changes from frame to frame, where nothing should
     change,        ///< difference from the first frame, where there should be none
     tie,           ///< the less of error and change: any rule will do that is kept
+    share,         ///< what is missing of the front card, which alone is red, where most is: 1 less the smallest share of it
 };
 
 struct HardCase {

@@ -61,6 +61,16 @@ ColumnsOfCells judgments() {
           .better = Better::less,
           .shown = in_files},
          [](const HardCell& cell) { return is_applicable(cell) ? CellValue(cell.outcome.error) : CellValue(); }},
+        {{.key = "smallest_share",
+          .title = "smallest share",
+          .help = "H3: smallest share of the front card over the positions of the eye; exact: 1",
+          .shown = in_files},
+         [](const HardCell& cell) { return cell.outcome.shares ? CellValue(cell.outcome.shares->smallest) : CellValue(); }},
+        {{.key = "largest_share",
+          .title = "largest share",
+          .help = "H3: largest share of the front card over the positions of the eye; exact: 1",
+          .shown = in_files},
+         [](const HardCell& cell) { return cell.outcome.shares ? CellValue(cell.outcome.shares->largest) : CellValue(); }},
         {{.key = "model_worst",
           .title = "model worst",
           .help = "largest difference between device and model",
@@ -122,6 +132,18 @@ Sheet matrix_of(const HardCaseReport& report, std::size_t first_case, std::size_
     });
 }
 
+/// Smallest and largest share of the front card, of every row.
+std::string share_lines(const HardCaseReport& report) {
+    std::string text;
+    for (const HardCaseRow& row : report.rows)
+        for (const HardCell& cell : cells_of(row))
+            if (cell.outcome.shares)
+                text += fmt::format("   {:<28} {:.3f} to {:.3f}\n", below_stage(label(row.technique, row.settings)),
+                                    cell.outcome.shares->smallest, cell.outcome.shares->largest);
+    return text.empty() ? text
+                        : "\nH3: smallest and largest share of the front card over 33 positions of the eye (exact: 1)\n" + text;
+}
+
 }  // namespace
 
 Sheet sheet_of(const HardCaseReport& report) {
@@ -139,6 +161,7 @@ Page page_of(const HardCaseReport& report) {
     Page page{text};
     for (std::size_t first = 0; first < cases; first += cases_side_by_side)
         page.insert(page.end(), {"\n", matrix_of(report, first, std::min(cases_side_by_side, cases - first))});
+    page.emplace_back(share_lines(report));
     page.emplace_back(
         "\nok: holds. A number: fails by so much, at its defaults as the technique documents. -: not applicable.\n"
         "!: a failure that is not documented, or of another size. ok?: holds what is documented as a failure.\n" +

@@ -57,6 +57,19 @@ double error_of(const Seen& seen) {
     return worst(seen.truth, [&](std::size_t i, int c) { return seen.got.texels[i][c] - seen.truth.texels[i][c]; });
 }
 
+/// Of red, which only the front card has: the smallest over all frames and texels, and the largest. Infinite where it is no
+/// number.
+Shares shares_of(std::span<const Seen> frames) {
+    Shares shares{.smallest = std::numeric_limits<double>::infinity(), .largest = -std::numeric_limits<double>::infinity()};
+    for (const Seen& seen : frames)
+        for (const glm::dvec4& texel : seen.got.texels) {
+            if (!std::isfinite(texel.x))
+                return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+            shares = {std::min(shares.smallest, texel.x), std::max(shares.largest, texel.x)};
+        }
+    return shares;
+}
+
 double measured(HardMeasure measure, std::span<const Seen> frames) {
     const Seen& first = frames.front();
     double error = 0, change = 0, unsteadiness = 0;
@@ -78,6 +91,8 @@ double measured(HardMeasure measure, std::span<const Seen> frames) {
             return unsteadiness;
         case HardMeasure::tie:
             return std::min(error, change);
+        case HardMeasure::share:
+            return 1 - shares_of(frames).smallest;
     }
     return error;
 }
@@ -142,7 +157,9 @@ Result<std::vector<Tried>> tried(Session& session, std::span<const Variant> rows
 
 HardOutcome outcome_of(const Tried& tried, const Variant& variant, const HardCase& hard_case) {
     if (!tried.not_supported.empty()) return {.verdict = HardOutcome::Verdict::not_applicable, .reason = tried.not_supported};
-    return judged(variant, hard_case, measured(hard_case.measure, tried.seen), tried.model_worst);
+    HardOutcome outcome = judged(variant, hard_case, measured(hard_case.measure, tried.seen), tried.model_worst);
+    if (hard_case.measure == HardMeasure::share) outcome.shares = shares_of(tried.seen);
+    return outcome;
 }
 
 }  // namespace

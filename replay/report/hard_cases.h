@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -16,15 +17,21 @@
 
 namespace strata {
 
+/// Of the front card, over a case's frames.
+struct Shares {
+    double smallest = 0, largest = 0;
+};
+
 struct HardOutcome {
     /// undocumented: a failure the technique does not know of, or of another size than it says: a bug of code or of record.
     /// undeserved: it holds what it says it does not. fails: at other settings than the defaults, of which techniques say
     /// nothing.
     enum class Verdict { holds, documented, undocumented, undeserved, fails, not_applicable } verdict = Verdict::holds;
-    double error = 0;        ///< as the case measures; infinite where a pixel is no number
-    double documented = 0;   ///< what the technique says, where it does
-    double model_worst = 0;  ///< GPU against model over the case's frames, relative
-    std::string reason;      ///< why it does not apply, or why it fails
+    double error = 0;                   ///< as the case measures; infinite where a pixel is no number
+    double documented = 0;              ///< what the technique says, where it does
+    double model_worst = 0;             ///< GPU against model over the case's frames, relative
+    std::string reason;                 ///< why it does not apply, or why it fails
+    std::optional<Shares> shares = {};  ///< of a case that measures them (HardMeasure::share)
 };
 
 struct HardCaseRow {

@@ -195,7 +195,7 @@ Technique moments() {
         .counter_bytes = sizeof(MomentsCounters),
         .views = {normalization_row<sums>(), motion_row<sums>()},
         .claims = {.failures = {{"H1c", 0.043, "the cards are closer than the bias can tell apart"},
-                                {"H2", 0.169, "four moments serve up to three depths; every further card bends the curve"},
+                                {"H2", 0.144, "four moments serve up to three depths; every further card bends the curve"},
                                 {"H4", 0.115, "the panes are closer than the bias can tell apart"},
                                 {"H5", 0.0203, "four moments of 200 layers"},
                                 {"H13", 0.134, "the panes are closer than the bias can tell apart"},

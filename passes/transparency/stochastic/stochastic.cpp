@@ -165,6 +165,8 @@ Technique stochastic() {
                                 {"H5", 0.1685, "most layers of .01 cover no subsample, so their order is chance"},
                                 {"H9", 0.1875, "eight subsamples hold T in eighths"},
                                 {"H10b", 0.104, "equal depths share their subsamples by chance"},
+                                {"H12b", 0.8,
+                                 "colored glass covers by the mean of its channels: five panes cover every subsample"},
                                 {"H13", 0.231, "eight subsamples hold T in eighths"},
                                 {"H14a", 0.1, "in some pixels a layer of .1 covers no subsample"},
                                 {"H14b", 0.1, "in some pixels a layer of .1 covers no subsample"}}},

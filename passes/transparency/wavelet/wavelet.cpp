@@ -151,7 +151,7 @@ Technique wavelet() {
         .views = {normalization_row<sums>(), motion_row<sums>()},
         .claims = {.failures = {{"H1b", 0.288, "the cards share a cell"},
                                 {"H1c", 0.656, "the cards share a cell"},
-                                {"H2", 0.587, "cards in the cell of the first one dim it"},
+                                {"H3", 0.3804, "the cards share a cell, and move through two of them"},
                                 {"H4", 0.125, "the panes share a cell: the value of a tie"},
                                 {"H5", 0.0304, "eight cells, and half floats cut what is added"},
                                 {"H13", 0.231, "panes, smoke and car share a cell"}}},
