@@ -8,6 +8,8 @@
 #include "capture_format/frame.h"
 #include "captures/cards.h"
 #include "passes/frame_images.h"
+#include "passes/registry.h"
+#include "passes/technique.h"
 #include "replay/images/image_io.h"
 #include "tests/5_techniques/voxel_name.h"
 #include "tests/support/session.h"
@@ -125,10 +127,27 @@ TEST(VoxelViews, TellChannelsApart) {
     for (Material& material : frame.materials) material.transmission = {1, 0, 0};
     for (const char* packing : {"packing=planes", "packing=rgb10"}) {
         const strata::Run run = run_of(frame, {packing}, {"overflow", "thickness"});
-        EXPECT_EQ(shown(run, "overflow", 0), (Range{128, 128})) << packing;
-        for (const int absorbed : {1, 2}) EXPECT_LT(shown(run, "overflow", absorbed)[1], 128) << packing;
+        EXPECT_EQ(shown(run, "overflow", 0), (Range{0, 0})) << packing;
+        for (const int absorbed : {1, 2}) EXPECT_GT(shown(run, "overflow", absorbed)[0], 0) << packing;
         EXPECT_GT(shown(run, "thickness")[0], 0) << packing;
     }
+}
+
+/// Black, and never the color of the most: where there is nothing, a sentence can say it.
+TEST(VoxelViews, NoneIsZero) {
+    const Frame thin = cards_at({5, 9}), thick = cards_at({5, 5, 9}, .99f);
+    for (const char* view : {"overflow", "saturation depth"}) {
+        EXPECT_EQ(shown(run_of(thin, {}, {view}), view), (Range{0, 0})) << view;
+        EXPECT_GT(shown(run_of(thick, {}, {view}), view)[0], 0) << view;
+    }
+    const double depth = shown(run_of(thick, {}, {"saturation depth"}), "saturation depth")[0];
+    EXPECT_GT(depth, 4.9);
+    EXPECT_LT(depth, 5.3);
+}
+
+TEST(VoxelViews, SayWhenThereIsNothingToShow) {
+    for (const DebugView& view : must(find_technique(voxel))->views)
+        if (view.help.find("; 0: ") != view.help.npos || view.name == "culled") EXPECT_FALSE(view.if_zero.empty()) << view.name;
 }
 
 }  // namespace

@@ -45,10 +45,11 @@ float used_slices(uvec2 tile) {
 
 float place_of_slice(uint slice) { return float(slice < physical_slices() ? virtual_slice(slice) : virtual_slices()); }
 
-// Of every channel.
+// Of every channel; 0 where one of them never saturates.
 float saturation_depth(uvec2 texel) {
     uint last = 0u;
     for (uint channel = 0u; channel < push.channels; ++channel) last = max(last, first_with(texel, channel, full_integral()));
+    if (last == physical_slices()) return 0.0;
     return depth_of_slice(min(place_of_slice(last) + empty_in_front, float(virtual_slices())));
 }
 
@@ -59,9 +60,14 @@ float nearest_thickness(uvec2 texel) {
     return first < physical_slices() ? thickness_at(depth_of_slice(place_of_slice(first) + 0.5)) : 0.0;
 }
 
+// Slices from the nearest that overflowed to the last; 0 where none did.
+float overflowed_slices(uvec2 texel, uint channel) {
+    return float(physical_slices() - min(overflow_of(texel, channel), physical_slices()));
+}
+
 float shown_of(uvec2 texel, uint channel) {
     const uint slice = min(shown_slice, physical_slices() - 1u);
-    if (shown == view_overflow) return float(min(overflow_of(texel, channel), physical_slices()));
+    if (shown == view_overflow) return overflowed_slices(texel, channel);
     if (shown == view_occupancy) return used_slices(texel / tile_size);
     if (shown == view_saturation_depth) return saturation_depth(texel);
     if (shown == view_thickness) return nearest_thickness(texel);
