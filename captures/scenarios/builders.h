@@ -11,10 +11,12 @@ namespace strata::scenario {
 // smoke, glass, and what leaks through
 Frame three_cards(std::uint32_t frame, const ScenarioOptions&);
 Frame smoke_grenade(std::uint32_t frame, const ScenarioOptions&);
+Frame smoke_core(std::uint32_t frame, const ScenarioOptions&);
 Frame glass_and_smoke(std::uint32_t frame, const ScenarioOptions&);
 Frame facade_at_150m(std::uint32_t frame, const ScenarioOptions&);
 Frame tail_light(std::uint32_t frame, const ScenarioOptions&);
 Frame explosion(std::uint32_t frame, const ScenarioOptions&);
+Frame thick_explosion(std::uint32_t frame, const ScenarioOptions&);
 Frame interface_layers(std::uint32_t frame, const ScenarioOptions&);
 // layers.cpp
 Frame one_pane(std::uint32_t frame, const ScenarioOptions&);
@@ -25,12 +27,14 @@ Frame two_hundred_layers(std::uint32_t frame, const ScenarioOptions&);
 Frame pane_at_the_lens(std::uint32_t frame, const ScenarioOptions&);
 Frame red_and_green_glass(std::uint32_t frame, const ScenarioOptions&);
 Frame coincident_panes(std::uint32_t frame, const ScenarioOptions&);
+Frame stack_of_gels(std::uint32_t frame, const ScenarioOptions&);
 Frame foggy_panes(std::uint32_t frame, const ScenarioOptions&);
 Frame thin_layers(std::uint32_t frame, const ScenarioOptions&);
 // particles.cpp
 Frame additive_sparks(std::uint32_t frame, const ScenarioOptions&);
 Frame nan_particles(std::uint32_t frame, const ScenarioOptions&);
 Frame particle_storm(std::uint32_t frame, const ScenarioOptions&);
+Frame ash_storm(std::uint32_t frame, const ScenarioOptions&);
 // surfaces.cpp
 Frame empty(std::uint32_t frame, const ScenarioOptions&);
 Frame opaque_only(std::uint32_t frame, const ScenarioOptions&);

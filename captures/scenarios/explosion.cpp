@@ -29,6 +29,7 @@ struct Cloud {
     double inner, outer;  ///< meters from the heart at age 1
     double size;
     float alpha;
+    float thinnest = 0.6f;  ///< of alpha
 };
 
 Emitter cloud(const Cloud& about, std::uint32_t texture, FrameBuilder& builder) {
@@ -44,7 +45,7 @@ Emitter cloud(const Cloud& about, std::uint32_t texture, FrameBuilder& builder) 
         particle.center = heart + towards * grown * std::cbrt(random.between(std::pow(about.inner, 3), std::pow(about.outer, 3)));
         particle.size = static_cast<float>(about.size * grown * random.between(0.7, 1.3));
         particle.rotation = random.between(0.0f, 2 * std::numbers::pi_v<float>);
-        particle.alpha = about.alpha * random.between(0.6f, 1.0f);
+        particle.alpha = about.alpha * random.between(about.thinnest, 1.0f);
         emitter.particles.push_back(particle);
     }
     return emitter;
@@ -82,15 +83,13 @@ Mesh ripples(float half, std::uint32_t cells) {
     return mesh;
 }
 
-void add_smoke_column(FrameBuilder& builder) {
-    Emitter smoke = cloud({"smoke", 200, 0.45, 1.2, 0.36, 0.5f}, builder.add(puff(builder.seed())), builder);
+void add_smoke_column(FrameBuilder& builder, const Cloud& about) {
+    Emitter smoke = cloud(about, builder.add(puff(builder.seed())), builder);
     for (Particle& particle : smoke.particles) particle.color = glm::vec3(static_cast<float>(0.08 + 0.08 * particle.center.y));
     builder.frame.emitters.push_back(std::move(smoke));
 }
 
-}  // namespace
-
-Frame explosion(std::uint32_t frame, const ScenarioOptions& options) {
+Frame explosion_in(const Cloud& smoke, std::uint32_t frame, const ScenarioOptions& options) {
     FrameBuilder builder(frame, options);
     builder.look({.eye = {0.4, 1.7, 4.5}, .target = {0, 1.2, 0}, .vertical_fov = 0.75});
     Material tiles = lambert("tiles", glm::vec3(1));
@@ -100,7 +99,7 @@ Frame explosion(std::uint32_t frame, const ScenarioOptions& options) {
     add_crate(builder, builder.add(lambert("wood", {0.45f, 0.28f, 0.12f})), glm::dvec3(0.4),
               {.position = {1.5, 0, -0.6}, .yaw = 0.4});
     People(builder).add(builder, builder.add(lambert("coat", {0.1f, 0.2f, 0.5f})), {.position = {-1.6, 0, -1}, .yaw = 0.3});
-    add_smoke_column(builder);
+    add_smoke_column(builder, smoke);
     add_fire(builder);
     Material hot_air = unlit("hot air", {0.9f, 0.85f, 0.8f, 0.04f});
     hot_air.distortion = 0.02f;
@@ -108,6 +107,16 @@ Frame explosion(std::uint32_t frame, const ScenarioOptions& options) {
     builder.frame.hemisphere = {.sky = {0.5f, 0.55f, 0.65f}, .ground = {0.25f, 0.22f, 0.2f}};
     builder.frame.background = {0.3f, 0.38f, 0.5f};
     return std::move(builder.frame);
+}
+
+}  // namespace
+
+Frame explosion(std::uint32_t frame, const ScenarioOptions& options) {
+    return explosion_in({"smoke", 200, 0.45, 1.2, 0.36, 0.5f}, frame, options);
+}
+/// Smoke of which four sprites in a slice are more than a byte of optical depth holds.
+Frame thick_explosion(std::uint32_t frame, const ScenarioOptions& options) {
+    return explosion_in({"smoke", 2000, 0.45, 1.2, 0.36, 1, 0.97f}, frame, options);
 }
 
 }  // namespace strata::scenario

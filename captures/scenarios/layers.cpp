@@ -107,6 +107,20 @@ Frame coincident_panes(std::uint32_t frame, const ScenarioOptions& options) {
     return std::move(stage.builder.frame);
 }
 
+/// Twelve sheets of each gel, a tenth of a millimeter apart, which is one slice: their codes of red, 255 each, are more than the
+/// 1023 that 10 bits hold, and carry. Six gray cards before them are more than a byte.
+Frame stack_of_gels(std::uint32_t frame, const ScenarioOptions& options) {
+    Stage stage(frame, options);
+    stage.builder.frame.materials[0] = unlit("white wall", glm::vec4(1));
+    for (int sheet = 0; sheet < 12; ++sheet) {
+        const double behind = 1e-4 * sheet;
+        stage.add_pane(glass("green gel", {0.002f, 0.95f, 0.9f}), {.position = {-0.5, 0.2, -4 - behind}});
+        stage.add_pane(glass("cyan gel", {0.002f, 0.97f, 0.97f}), {.position = {0.5, -0.2, -3.5 - behind}});
+        if (sheet < 6) stage.add_pane(unlit("card", {0.5f, 0.45f, 0.4f, 0.9f}), {.position = {0, 0.9, -3 - behind}});
+    }
+    return std::move(stage.builder.frame);
+}
+
 Frame foggy_panes(std::uint32_t frame, const ScenarioOptions& options) {
     Stage stage(frame, options);
     constexpr std::array<glm::vec4, 3> colors = {glm::vec4(1, 0.1f, 0.1f, 0.6f), {0.1f, 1, 0.1f, 0.6f}, {0.1f, 0.1f, 1, 0.6f}};

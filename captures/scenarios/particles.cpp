@@ -80,10 +80,12 @@ Frame nan_particles(std::uint32_t frame, const ScenarioOptions& options) {
     return std::move(builder.frame);
 }
 
+namespace {
+
 /// Eight layers over every pixel, whatever the extent and its shape: flakes are laid evenly over the view and a margin as wide as
 /// half of the largest, so many that their areas add up. Squares without a texture, because the mips of a round one cover the
 /// more of their quad the fewer pixels it has.
-Frame particle_storm(std::uint32_t frame, const ScenarioOptions& options) {
+Frame storm_of(float thinnest, float thickest, std::uint32_t frame, const ScenarioOptions& options) {
     constexpr double layers = 8, vertical_fov = 0.8, smallest = 0.04, largest = 0.1;  // half an edge at a depth of 1 m
     FrameBuilder builder(frame, options);
     builder.look({.eye = {0, 0, 0}, .target = {0, 0, -4}, .vertical_fov = vertical_fov, .swing = 0});
@@ -104,11 +106,17 @@ Frame particle_storm(std::uint32_t frame, const ScenarioOptions& options) {
         particle.size = static_cast<float>(random.between(smallest, largest) * depth);
         particle.rotation = random.between(0.0f, 1.6f);
         particle.color = glm::mix(glm::vec3(0.9f, 0.6f, 0.3f), glm::vec3(0.2f, 0.3f, 0.5f), random.between(0.0f, 1.0f));
-        particle.alpha = random.between(0.1f, 0.6f);
+        particle.alpha = random.between(thinnest, thickest);
         storm.particles.push_back(particle);
     }
     builder.frame.emitters.push_back(std::move(storm));
     return std::move(builder.frame);
 }
+
+}  // namespace
+
+Frame particle_storm(std::uint32_t frame, const ScenarioOptions& options) { return storm_of(0.1f, 0.6f, frame, options); }
+/// Flakes of which two in a slice are more than a byte of optical depth holds.
+Frame ash_storm(std::uint32_t frame, const ScenarioOptions& options) { return storm_of(0.85f, 1, frame, options); }
 
 }  // namespace strata::scenario

@@ -17,14 +17,22 @@ namespace {
 
 constexpr int sprite_count = 2000, signal_count = 400;
 
+/// What differs between the scenarios.
+struct Cloud {
+    double radius = 1.5;  ///< meters, where it is widest
+    float opacity = 1;    ///< factor of the sprites' alphas
+    float soft_depth_fade = 0.25f;
+    double vertical_fov = 0.75;
+};
+
 /// Everything random about a sprite is drawn from its own seed, so a sprite keeps its way through the frames.
-Particle sprite(int index, double progress, std::uint64_t seed) {
+Particle sprite(int index, double progress, std::uint64_t seed, const Cloud& cloud) {
     Random random(seed * 0x10001 + static_cast<std::uint64_t>(index));
     const double rank = (index + 0.5) / sprite_count;                        // 0: on the ground, 1: the top of the cloud
     const double grown = std::sqrt(0.15 + 0.85 * progress);                  // a puff's radius goes with the root of its age
     const double bulge = std::sin(std::numbers::pi * (0.15 + 0.75 * rank));  // the cloud is widest at middle height
     const double angle = random.between(0.0, 2 * std::numbers::pi) + 0.8 * progress * (1 - rank);
-    const double radius = 1.5 * grown * bulge * std::sqrt(random.unit());
+    const double radius = cloud.radius * grown * bulge * std::sqrt(random.unit());
     Particle particle;
     particle.center = {radius * std::cos(angle), 0.1 + 2.3 * rank * grown + random.between(-0.1, 0.1), radius * std::sin(angle)};
     particle.size = static_cast<float>(random.between(0.2, 0.45) * grown);
@@ -32,7 +40,7 @@ Particle sprite(int index, double progress, std::uint64_t seed) {
     particle.rotation = static_cast<float>(first_turn + turning * progress);
     const double lit = 0.35 + 0.4 * rank + 0.25 * radius * std::cos(angle - 0.8);  // the sun stands at +x, and above
     particle.color = glm::vec3(1, 0.97f, 0.92f) * static_cast<float>(std::max(0.1, lit));
-    particle.alpha = static_cast<float>(random.between(0.03, 0.16));
+    particle.alpha = cloud.opacity * static_cast<float>(random.between(0.03, 0.16));
     return particle;
 }
 
@@ -56,14 +64,14 @@ Particle signal_sprite(int index, double progress, std::uint64_t seed) {
     return particle;
 }
 
-void add_smoke(FrameBuilder& builder) {
+void add_smoke(FrameBuilder& builder, const Cloud& cloud) {
     Emitter smoke;
     smoke.name = "smoke";
     smoke.texture = builder.add(puff(builder.seed()));
-    smoke.soft_depth_fade = 0.25f;
+    smoke.soft_depth_fade = cloud.soft_depth_fade;
     Emitter signal = smoke;
     signal.name = "signal";
-    for (int i = 0; i < sprite_count; ++i) smoke.particles.push_back(sprite(i, builder.progress(), builder.seed()));
+    for (int i = 0; i < sprite_count; ++i) smoke.particles.push_back(sprite(i, builder.progress(), builder.seed(), cloud));
     for (int i = 0; i < signal_count; ++i) signal.particles.push_back(signal_sprite(i, builder.progress(), builder.seed()));
     builder.frame.emitters.push_back(std::move(smoke));
     builder.frame.emitters.push_back(std::move(signal));
@@ -82,18 +90,16 @@ void add_surroundings(FrameBuilder& builder) {
     add_crate(builder, wood, glm::dvec3(0.4), {.position = {-2.4, 0, -0.4}, .yaw = 0.9});
 }
 
-}  // namespace
-
-Frame smoke_grenade(std::uint32_t frame, const ScenarioOptions& options) {
+Frame smoke_of(const Cloud& cloud, std::uint32_t frame, const ScenarioOptions& options) {
     FrameBuilder builder(frame, options);
-    builder.look({.eye = {0.6, 1.7, 6}, .target = {0, 1.2, 0}, .vertical_fov = 0.75});
+    builder.look({.eye = {0.6, 1.7, 6}, .target = {0, 1.2, 0}, .vertical_fov = cloud.vertical_fov});
     add_surroundings(builder);
     const People people(builder);
     people.add(builder, builder.add(lambert("red coat", {0.7f, 0.08f, 0.06f})), {.position = {-1.7, 0, -2.6}, .yaw = 0.2});
     people.add(builder, builder.add(lambert("blue coat", {0.08f, 0.15f, 0.6f})), {.position = {0.5, 0, 0.1}, .yaw = -0.4});
     people.add(builder, builder.add(lambert("green coat", {0.1f, 0.45f, 0.12f})), {.position = {2.3, 0, 1.8}, .yaw = 0.9});
     people.add(builder, builder.add(lambert("yellow coat", {0.7f, 0.55f, 0.08f})), {.position = {0.9, 0, -2.2}, .yaw = -0.6});
-    add_smoke(builder);
+    add_smoke(builder, cloud);
     builder.frame.sun.direction = glm::normalize(glm::vec3(-0.7f, -1, -0.4f));
     builder.frame.sun.irradiance = {2.6f, 2.5f, 2.3f};
     builder.frame.sun.shadow.casts = true;
@@ -102,6 +108,16 @@ Frame smoke_grenade(std::uint32_t frame, const ScenarioOptions& options) {
     builder.frame.hemisphere = {.sky = {0.4f, 0.48f, 0.6f}, .ground = {0.2f, 0.18f, 0.15f}};
     builder.frame.background = {0.45f, 0.55f, 0.7f};
     return std::move(builder.frame);
+}
+
+}  // namespace
+
+Frame smoke_grenade(std::uint32_t frame, const ScenarioOptions& options) { return smoke_of({}, frame, options); }
+
+/// Wider, nearer and six times as dense, and without soft particles: a depth from which on nothing is seen may then be known
+/// before opaque surfaces are drawn.
+Frame smoke_core(std::uint32_t frame, const ScenarioOptions& options) {
+    return smoke_of({.radius = 2.1, .opacity = 6, .soft_depth_fade = 0, .vertical_fov = 0.62}, frame, options);
 }
 
 }  // namespace strata::scenario

@@ -91,19 +91,41 @@ ordered_json json_of(const Technique& technique) {
     return json;
 }
 
+ordered_json json_of(const Scenario& scenario) {
+    ordered_json json{{"name", scenario.name}, {"question", scenario.question}, {"witnesses", ordered_json::array()}};
+    for (const Witness& witness : scenario.witnesses)
+        json["witnesses"].push_back({{"stage", witness.stage},
+                                     {"setting", witness.setting},
+                                     {"counted", witness.counted},
+                                     {"more_than", witness.more_than},
+                                     {"samples", witness.samples}});
+    return json;
+}
+
+/// "transparency packing=rgb10: overflowed > 10", "feature fog".
+std::string text_of(const Witness& witness) {
+    if (witness.stage.empty()) return fmt::format("feature {}", witness.counted);
+    return fmt::format("{}{}{}: {} > {:g}{}", witness.stage, witness.setting.empty() ? "" : " ", witness.setting, witness.counted,
+                       witness.more_than, witness.samples == 1 ? "" : fmt::format(" at {} samples", witness.samples));
+}
+
 Result<void> list_scenarios(const ListArguments& options) {
     if (options.json) {
         ordered_json json{{"schema", "strata.scenarios"}, {"schema_version", 1}, {"scenarios", ordered_json::array()}};
-        for (const Scenario& scenario : scenarios())
-            json["scenarios"].push_back({{"name", scenario.name}, {"question", scenario.question}});
+        for (const Scenario& scenario : scenarios()) json["scenarios"].push_back(json_of(scenario));
         write_stdout(json_text(json));
         return {};
     }
     std::size_t width = 0;
     for (const Scenario& scenario : scenarios()) width = std::max(width, scenario.name.size());
-    for (const Scenario& scenario : scenarios())
-        if (options.names) to_stdout("{}\n", scenario.name);
-        else to_stdout("  {:<{}}  {}\n", scenario.name, width, scenario.question);
+    for (const Scenario& scenario : scenarios()) {
+        if (options.names) {
+            to_stdout("{}\n", scenario.name);
+            continue;
+        }
+        to_stdout("  {:<{}}  {}\n", scenario.name, width, scenario.question);
+        for (const Witness& witness : scenario.witnesses) to_stdout("  {:<{}}    witness {}\n", "", width, text_of(witness));
+    }
     return {};
 }
 
@@ -205,8 +227,9 @@ std::function<Result<void>()> declare_list(CLI::App& app) {
     const auto options = std::make_shared<ListArguments>();
     CLI::Option* what =
         app.add_option("what,--stage", options->what, "stage or technique to list with parameters, counters and views");
-    CLI::Option* scenarios =
-        app.add_flag("--scenarios", options->scenarios, "list the scenarios of strata record")->excludes(what);
+    CLI::Option* scenarios = app.add_flag("--scenarios", options->scenarios,
+                                          "list the scenarios of strata record, with what their frames must contain (witnesses)")
+                                 ->excludes(what);
     CLI::Option* images = app.add_flag("--images", options->images, "list the images of a frame, for --outputs")
                               ->excludes(what)
                               ->excludes(scenarios);

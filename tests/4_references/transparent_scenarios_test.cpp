@@ -169,5 +169,58 @@ TEST(TransparentScenarios, PanesOfTheNightMarketCrossEachOther) {
     EXPECT_GT(crossing, 5);
 }
 
+/// What all fragments of a pixel let through of the first channel.
+double transmittance(std::span<const Fragment> fragments) {
+    double through = 1;
+    for (const Fragment& fragment : fragments) through *= fragment.transmittance.x;
+    return through;
+}
+
+/// As Drobot's talk asks of smoke in a game: a byte has nothing left of it.
+TEST(TransparentScenarios, TheCoreOfThickSmokeHidesACharacterCompletely) {
+    const Frame frame = build("smoke_core", 96, 54);
+    const FragmentLists fragments = all_fragments(frame);
+    std::size_t cloud = 0, hidden = 0;
+    for (std::uint32_t y = 0; y < 54; ++y)
+        for (std::uint32_t x = 0; x < 96; ++x) {
+            cloud += !fragments.at(x, y).empty();
+            hidden += transmittance(fragments.at(x, y)) < 1. / 255;
+        }
+    EXPECT_GT(3 * hidden, cloud);
+    std::size_t corners = 0;
+    for (const Draw& draw : frame.draws) {
+        if (frame.materials[draw.material].name != "yellow coat") continue;
+        for (const glm::vec3& position : frame.meshes[draw.mesh].positions) {
+            const glm::dvec3 world = draw.to_world * glm::dvec4(position, 1);
+            const glm::dvec3 seen = frame.view.to_view * (world - frame.view.origin);
+            const glm::dvec2 at =
+                glm::dvec2(frame.view.projection[0][0], frame.view.projection[1][1]) * glm::dvec2(seen) / seen.z;
+            const glm::dvec2 pixel = (at * .5 + .5) * glm::dvec2(96, 54);
+            EXPECT_LT(transmittance(fragments.at(std::uint32_t(pixel.x), std::uint32_t(pixel.y))), 1. / 255)
+                << world.x << " " << world.y << " " << world.z;
+            ++corners;
+        }
+    }
+    EXPECT_GT(corners, 20u);
+}
+
+/// T = 1 / 255 is a code of 255: twelve of them in 1.2 mm are three times what a word of 10 bits holds.
+TEST(TransparentScenarios, GelsThatArePressedTogetherAreMoreThanAWordHolds) {
+    const Frame frame = build("stack_of_gels", 96, 54);
+    const FragmentLists fragments = all_fragments(frame);
+    std::size_t stacks = 0;
+    for (std::uint32_t y = 0; y < 54; ++y)
+        for (std::uint32_t x = 0; x < 96; ++x) {
+            std::vector<double> depths;
+            for (const Fragment& fragment : fragments.at(x, y))
+                if (fragment.transmittance.x < 1. / 255 && fragment.transmittance.y > .9) depths.push_back(fragment.depth);
+            if (depths.size() != 12) continue;
+            const auto [nearest, farthest] = std::ranges::minmax(depths);
+            EXPECT_LT(farthest - nearest, .0012);
+            ++stacks;
+        }
+    EXPECT_GT(stacks, 500u);
+}
+
 }  // namespace
 }  // namespace strata

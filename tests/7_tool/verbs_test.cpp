@@ -9,6 +9,7 @@
 
 #include "capture_format/frame.h"
 #include "capture_format/reader.h"
+#include "captures/scenarios.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
 #include "passes/registry.h"
@@ -115,6 +116,18 @@ TEST(List, ShowsEveryTechniqueAndItsParameters) {
                     AllOf(StartsWith(stage.name), ContainsRegex("\n  [a-z_]+/[a-z_]+ ")))
             << "every stage is done by some technique";
     EXPECT_EQ(strata("list --stage transparency").out, strata("list transparency").out);
+}
+
+/// By name, by technique with its number, and as JSON.
+TEST(List, ShowsWhatAScenariosFrameMustContain) {
+    EXPECT_THAT(strata("list --scenarios").out,
+                AllOf(HasSubstr("witness lighting: tiles over lights > 0\n"), HasSubstr("witness feature fog\n"),
+                      HasSubstr("witness edges: edge_pixels > 100 at 4 samples\n"),
+                      HasSubstr("witness transparency packing=rgb10: overflowed > 10\n")));
+    EXPECT_EQ(strata("list --scenarios --names").out.find("witness"), std::string::npos);
+    for (const json& scenario : json::parse(strata("list --scenarios --json").out)["scenarios"])
+        EXPECT_EQ(scenario["witnesses"].size(), (*find_scenario(scenario["name"].get<std::string>()))->witnesses.size())
+            << scenario["name"];
 }
 
 /// What --outputs refuses as unknown is not on the lists, and what is on them it takes.
