@@ -55,12 +55,22 @@ Ratios ratios() {
                  return row.claim.ratio->published ? CellValue(std::string(row.claim.ratio->source)) : CellValue();
              },
              OfRatio::every_row},
+            {{.key = "witness",
+              .title = "witness",
+              .help = "counter that one variant must exceed, or both did the same work and the row is not measured",
+              .kind = CellKind::text,
+              .shown = in_files},
+             [](const MeasuredRatio& row) {
+                 const auto witness = witness_of(*row.claim.ratio);
+                 return cell_if_any(witness ? fmt::format("{} > {:g}", witness->counter, witness->more_than) : std::string());
+             },
+             OfRatio::every_row},
             {{.key = "samples", .title = "samples", .help = "samples per pixel", .kind = CellKind::count, .shown = in_files},
              [](const MeasuredRatio& row) { return std::uint64_t{row.samples}; }},
             {{.key = "not_measured",
               .title = "not measured",
               .help = "instead of numbers: why the row could not be measured here (nothing transparent, a feature that one "
-                      "variant lacks)",
+                      "variant lacks, nothing overflowed)",
               .kind = CellKind::text,
               .shown = in_files},
              [](const MeasuredRatio& row) { return cell_if_any(row.not_measured); },
