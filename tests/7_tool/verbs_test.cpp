@@ -122,7 +122,7 @@ TEST(List, ShowsEveryTechniqueAndItsParameters) {
 TEST(List, ShowsWhatAScenariosFrameMustContain) {
     EXPECT_THAT(strata("list --scenarios").out,
                 AllOf(HasSubstr("witness lighting: tiles over lights > 0\n"), HasSubstr("witness feature fog\n"),
-                      HasSubstr("witness edges: edge_pixels > 100 at 4 samples\n"),
+                      HasSubstr("witness edges: edge_samples > 400 at 4 samples\n"),
                       HasSubstr("witness transparency packing=rgb10: overflowed > 10\n")));
     EXPECT_EQ(strata("list --scenarios --names").out.find("witness"), std::string::npos);
     for (const json& scenario : json::parse(strata("list --scenarios --json").out)["scenarios"])
