@@ -159,7 +159,7 @@ const std::vector<Scenario>& scenario_table() {
          96,
          54,
          scenario::light_types,
-         {{{}, "area_lights"}, {{}, "projected_textures"}, {{}, "shadows"}}},
+         {{{}, "area_lights"}, {{}, "projected_textures"}}},
         {"city_of_boxes",
          "Of 400 boxes, how many are drawn when most are out of sight?",
          160,
