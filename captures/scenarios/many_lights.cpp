@@ -58,10 +58,11 @@ Frame hall_with(std::uint32_t lights, std::uint32_t frame, const ScenarioOptions
 
 Frame hall_of_lights_1(std::uint32_t frame, const ScenarioOptions& options) { return hall_with(1, frame, options); }
 Frame hall_of_lights_64(std::uint32_t frame, const ScenarioOptions& options) { return hall_with(64, frame, options); }
-/// Four times as wide and without spots, whose cones may miss the view: tiles that see the hall from end to end have all 65.
+/// Four times as wide, as bright as the others, and without spots, whose cones may miss the view: tiles that see the hall from
+/// end to end have all 65.
 Frame hall_of_lights_65(std::uint32_t frame, const ScenarioOptions& options) {
     Frame made = hall_with(65, frame, options, 4);
-    for (Light& light : made.lights) light.type = LightType::omni;
+    for (Light& light : made.lights) light.type = LightType::omni, light.intensity /= 16;
     return made;
 }
 Frame hall_of_lights_512(std::uint32_t frame, const ScenarioOptions& options) { return hall_with(512, frame, options); }

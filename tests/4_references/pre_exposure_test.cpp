@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "capture_format/frame.h"
+#include "captures/scenarios.h"
+#include "passes/reference/white_radiance.h"
 #include "passes/scene/pre_exposure.h"
 
 namespace strata {
@@ -60,6 +62,15 @@ TEST(PreExposure, KnowsWhiteUnderEveryLight) {
     sky.hemisphere.sky = glm::vec3(.5f, .7f, 900);
     EXPECT_NEAR(*white_level(sky), 900, 1e-3);
     EXPECT_FALSE(white_level(in_the_sun(std::numeric_limits<float>::infinity(), 1)));
+}
+
+/// The reference derives it apart.
+TEST(PreExposure, KnowsTheWhiteThatTheReferenceFinds) {
+    for (const Scenario& scenario : scenarios()) {
+        const Frame frame = scenario.build(0, {.width = 64, .height = 36});
+        const double white = white_radiance(frame);
+        EXPECT_NEAR(white_level(frame).value_or(0), white, 1e-6 * white) << scenario.name;
+    }
 }
 
 TEST(PreExposure, TimesTheLightIsTheSameInEveryUnit) {
