@@ -6,6 +6,7 @@
 
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/light.h"
+#include "capture_format/light_types.h"
 
 namespace strata {
 namespace {
@@ -16,34 +17,21 @@ double largest(const glm::vec3& color) {
     return double(std::max(std::abs(color.x), std::max(std::abs(color.y), std::abs(color.z))));
 }
 
-/// What an area light shows to a place before it, square meters; points show nothing.
-double shown_area(const Light& light) {
+/// What an area light shows to a place before it, square meters.
+double shown_area(const Light& light, LightShape shape) {
     const double r = double(light.source_radius), u = double(light.half_extent.x), v = double(light.half_extent.y);
-    switch (light.type) {
-        case LightType::tube:
-            return pi * r * r + 2 * u * 2 * r;
-        case LightType::sphere:
-        case LightType::disc:
-            return pi * r * r;
-        case LightType::rectangle:
-            return 2 * u * 2 * v;
-        default:
-            return 0;
-    }
+    if (shape == LightShape::rectangle) return 2 * u * 2 * v;
+    return pi * r * r + (shape == LightShape::tube ? 2 * u * 2 * r : 0);
 }
 
 double irradiance_within(const Light& light) {
+    const LightShape shape = facts_of(light.type).shape;
     const double at_one = largest(light.intensity), distance = double(light.range) / 4;
-    switch (light.type) {
-        case LightType::directional:
-            return at_one;
-        case LightType::omni:
-        case LightType::round_spot:
-        case LightType::square_spot:
-            return distance > 0 ? at_one / (distance * distance) : 0;
-        default:
-            return distance > 0 ? at_one * std::min(pi, shown_area(light) / (distance * distance)) : 0;
-    }
+    if (shape == LightShape::parallel) return at_one;
+    if (!(distance > 0)) return 0;
+    const double per_intensity =
+        shape == LightShape::point ? 1 / (distance * distance) : std::min(pi, shown_area(light, shape) / (distance * distance));
+    return at_one * per_intensity;
 }
 
 }  // namespace

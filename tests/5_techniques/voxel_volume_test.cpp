@@ -170,19 +170,18 @@ TEST(VoxelVolume, IsThatOfThreePlanesWhereNothingOverflows) {
 }
 
 TEST(VoxelVolume, ShowsWhereItOverflowsAndFromWhereNothingIsSeen) {
-    const auto session = scenario_session("three_cards", 1);
+    const auto session = scenario_session("ash_storm", 1);
     const View view = must(session->frame(0)).view;
     const auto run = run_of(*session, {}, {voxel + ":saturation depth", voxel + ":overflow", voxel + ":thickness"});
     std::size_t overflowed = 0;
     for (std::size_t pixel = 0; pixel < std::size_t{view.width} * view.height; ++pixel) {
-        if (shown_at(run, "overflow", pixel) == 128) continue;
+        if (shown_at(run, "overflow", pixel) == 0) continue;
         ++overflowed;
-        // The cards are in one slice, and two and a half slices on nothing is left in a filtered read.
-        const float thickness = shown_at(run, "thickness", pixel);
-        EXPECT_GT(shown_at(run, "saturation depth", pixel), 2 * thickness);
-        EXPECT_GT(thickness, .1f);
+        EXPECT_GT(shown_at(run, "saturation depth", pixel), 0) << "a word that overflows is full";
+        EXPECT_GT(shown_at(run, "thickness", pixel), 0);
     }
     EXPECT_EQ(overflowed, counted(run_of(*session, {}), "overflowed"));
+    EXPECT_GT(overflowed, 0u);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ struct VerbLine {
 void PrintTo(const VerbLine& verb, std::ostream* out) { *out << verb.name; }
 
 constexpr VerbLine verbs[] = {
-    {"list", "list"},
+    {"list", "list --scenarios"},
     {"info", "info a.strata"},
     {"validate", "validate a.strata"},
     {"export_gltf", "export a.strata --gltf -o made.glb"},
