@@ -10,7 +10,7 @@ constexpr FileVerb table[] = {
     {"accept", "accept", "", ".strata", false},
     {"graph", "graph", "", ".strata", true},
     {"report", "report", "--repeats 1 --sweep pool=2 -o report.txt", ".strata", true},
-    {"bench", "bench voxel", "--repeats 1 --only wrap -o bench.json", ".strata", true},
+    {"bench", "bench voxel", "--repeats 1 --only two -o bench.json", ".strata", true},
     {"spectra", "spectra", "--modes 3 -o spectra.json", ".strata", true},
     {"diff", "diff", "--use transparency/weighted --limit 1000 -o pictures --junit junit.xml", ".strata", true},
     {"probe", "probe", "--at 8,4 --techniques sorted_lists --depths 16 -o probed", ".strata", true},

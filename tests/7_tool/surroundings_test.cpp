@@ -26,7 +26,7 @@ constexpr Writing writings[] = {
     {"record three_panes -o", "made.strata"},
     {"replay sound.strata --outputs color -o", "out"},
     {"report sound.strata --repeats 1 --techniques weighted -o", "report.txt"},
-    {"bench voxel sound.strata --repeats 1 --only wrap -o", "bench.json"},
+    {"bench voxel sound.strata --repeats 1 --only two -o", "bench.json"},
     {"bench device sound.strata --repeats 1 -o", "device.json"},
     {"diff sound.strata --use transparency/weighted --limit 1000 --junit", "junit.xml"},
     {"probe sound.strata --at 8,4 --techniques sorted_lists --depths 512 -o", "probed"},
@@ -80,7 +80,7 @@ TEST(Output, ThatCannotBeWrittenIsRefusedBeforeAnythingIsMeasured) {
 /// A command that reads sound.strata, and a file that it writes.
 constexpr Writing inputs_as_outputs[] = {
     {"report sound.strata --repeats 1 --sweep pool=2 -o link.txt", "link.txt"},
-    {"bench voxel sound.strata --repeats 1 --only wrap -o link.json", "link.json"},
+    {"bench voxel sound.strata --repeats 1 --only two -o link.json", "link.json"},
     {"spectra sound.strata --modes 3 -o link.json", "link.json"},
     {"diff sound.strata --use transparency/weighted --limit 1000 --junit link.xml", "link.xml"},
     {"export sound.strata --deep --transmittance mean -o link.exr", "link.exr"},

@@ -47,7 +47,7 @@ TEST(Tool, EveryVerbThatPrintsResultsPrintsThemAsJsonToo) {
     for (const char* command :
          {"list", "list --scenarios", "--list-gpus", "isa", "info sound.strata", "validate sound.strata", "replay sound.strata",
           "accept sound.strata --dry-run", "graph sound.strata", "report sound.strata --repeats 1 --sweep pool=2",
-          "bench voxel sound.strata --repeats 1 --only wrap", "bench device sound.strata --repeats 1",
+          "bench voxel sound.strata --repeats 1 --only two", "bench device sound.strata --repeats 1",
           "spectra sound.strata --modes 3", "diff sound.strata sound.strata",
           "probe sound.strata --at 8,4 --techniques sorted_lists -o probed"}) {
         const Finished printed = strata(fmt::format("{} --json", command));
