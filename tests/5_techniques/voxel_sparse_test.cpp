@@ -62,7 +62,7 @@ bool expect_dense(std::string_view scenario, const Sets& sets, const Sets& spars
     return true;
 }
 
-TEST(VoxelSparse, IsADenseVolumeOfAllItsVirtualSlices) {
+TEST(ExhaustiveVoxelSparse, IsADenseVolumeOfAllItsVirtualSlices) {
     std::size_t compared = 0;
     for (const std::string_view scenario : sparse_scenarios())
         compared += expect_dense(scenario, unbent, {"slices=64", "thinnest=0.005"}) ? 1 : 0;
