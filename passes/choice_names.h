@@ -8,6 +8,9 @@
 
 namespace strata {
 
+/// Names of a parameter's values 0 and 1.
+inline constexpr std::string_view switches[] = {"off", "on"};
+
 struct ChoiceRow {
     std::uint32_t value = 0;
     std::string_view name;

@@ -25,6 +25,13 @@ struct FrameChange {
     void (*change)(Frame&) = nullptr;
 };
 
+/// The condition on which a ratio compares different work: one way counts more than a number.
+struct RatioWitness {
+    std::string_view counter = {};    ///< of TimeRatio::counters; empty: the work always differs
+    std::string_view otherwise = {};  ///< said where it does not happen: "nothing overflowed"
+    double more_than = 0;
+};
+
 /// How many times as long one way takes as another, as a source states it: `strata bench` measures it. A way is settings of the
 /// technique ("slices=64 bits=16"; none: its defaults), or another technique of its stage by name, with its settings.
 struct TimeRatio {
@@ -36,6 +43,7 @@ struct TimeRatio {
     std::string_view source = {};  ///< of what is published: times, machine, extent
     std::string_view scenario = "particle_storm";
     std::vector<std::string_view> counters = {};  ///< that explain it, of either way
+    RatioWitness witness = {};
     /// In place of `steps`: stages of which every step counts, whichever technique it belongs to.
     std::vector<Stage> stages = {};
     /// What differs between the frames of the two ways.

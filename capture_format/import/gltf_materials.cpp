@@ -107,7 +107,7 @@ private:
         glm::dvec3 passes{0};
     };
 
-    /// What a texture is at each point, white where there is none. One image at a time is decoded.
+    /// The texture's value at each point, white where there is none. One image at a time is decoded.
     std::vector<glm::vec4> values(const TextureReference& reference, Encoding encoding, std::span<const SurfacePoint> points) {
         std::vector<glm::vec4> result(points.size(), glm::vec4(1));
         textures_.read(reference.texture, encoding, [&](const Texture& texture) {
@@ -117,7 +117,7 @@ private:
         return result;
     }
 
-    /// Of surfaces that show a material; one point where no texture makes them differ.
+    /// Points of the surfaces that show a material; one where no texture makes them differ.
     std::vector<SurfacePoint> points_of(const MaterialSource& source) const {
         std::vector<SurfacePoint> points;
         for (const TextureReference* reference : {&source.base_color_texture, &source.metallic_roughness_texture,

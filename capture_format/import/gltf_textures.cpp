@@ -33,7 +33,7 @@ bool is_png_or_jpeg(std::span<const std::byte> bytes) {
     return text.starts_with("\x89PNG\r\n\x1a\n") || text.starts_with("\xff\xd8\xff");
 }
 
-/// Of an rgba8 texture with all its mips.
+/// Size of an rgba8 texture with all its mips.
 std::uint64_t bytes_with_mips(std::uint32_t width, std::uint32_t height) {
     const auto mips = static_cast<std::uint32_t>(std::bit_width(std::max(width, height)));
     return texture_bytes({.name = {}, .width = width, .height = height, .mips = mips, .texels = {}});
@@ -112,7 +112,7 @@ Result<Texture> TextureImport::decode_once(int index, Room& room) {
     std::unique_ptr<stbi_uc, void (*)(void*)> pixels(load(), stbi_image_free);
     Texture texture;
     texture.texels.resize(4 * texels);
-    // Of some allocations that failed stb says nothing: there was room for the texels, so such an image is tried again.
+    // stb gives no reason for some failed allocations: there was room for the texels, so such an image is tried again.
     if (!pixels && !stb_gave_a_reason()) pixels.reset(load());
     if (!pixels)
         return fail(Fault::bad_input, "import.gltf.image_damaged", "image {image} is damaged: {reason}", index,

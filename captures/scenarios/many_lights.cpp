@@ -43,12 +43,12 @@ Light hall_light(std::uint32_t index, double range, Random& random) {
     return light;
 }
 
-Frame hall_with(std::uint32_t lights, std::uint32_t frame, const ScenarioOptions& options, double wider = 1) {
+Frame hall_with(std::uint32_t lights, std::uint32_t frame, const ScenarioOptions& options) {
     FrameBuilder builder(frame, options);
     builder.look({.eye = {0.5, 1.7, hall.z - 1}, .target = {0, 1.5, 0}, .swing = 0.04});
     add_hall(builder);
     Random random(builder.seed());
-    const double range = wider * 6 * std::cbrt(64.0 / lights);
+    const double range = 6 * std::cbrt(64.0 / lights);
     for (std::uint32_t i = 0; i < lights; ++i) builder.frame.lights.push_back(hall_light(i, range, random));
     builder.frame.hemisphere = {.sky = glm::vec3(0.03f), .ground = glm::vec3(0.02f)};
     return std::move(builder.frame);
@@ -61,8 +61,8 @@ Frame hall_of_lights_64(std::uint32_t frame, const ScenarioOptions& options) { r
 /// Four times as wide, as bright as the others, and without spots, whose cones may miss the view: tiles that see the hall from
 /// end to end have all 65.
 Frame hall_of_lights_65(std::uint32_t frame, const ScenarioOptions& options) {
-    Frame made = hall_with(65, frame, options, 4);
-    for (Light& light : made.lights) light.type = LightType::omni, light.intensity /= 16;
+    Frame made = hall_with(65, frame, options);
+    for (Light& light : made.lights) light.type = LightType::omni, light.range *= 4;
     return made;
 }
 Frame hall_of_lights_512(std::uint32_t frame, const ScenarioOptions& options) { return hall_with(512, frame, options); }

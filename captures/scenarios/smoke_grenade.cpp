@@ -17,7 +17,7 @@ namespace {
 
 constexpr int sprite_count = 2000, signal_count = 400;
 
-/// What differs between the scenarios.
+/// Properties in which the scenarios differ.
 struct Cloud {
     double radius = 1.5;  ///< meters, where it is widest
     float opacity = 1;    ///< factor of the sprites' alphas

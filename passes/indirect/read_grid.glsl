@@ -30,7 +30,7 @@ struct NearList {
     uint list, count;
 };
 
-// What is read of a grid: the numbers of its first cell and of the first that says which way sources face, or nowhere; how many cells before
+// Parts of a grid that are read: the numbers of its first cell and of the first that says which way sources face, or nowhere; how many cells before
 // the surface.
 struct GridReading {
     uint first_cell, first_facing;

@@ -26,7 +26,7 @@ uint listed_blockers(uint list, uint word) {
     return uint(halves.x) | uint(halves.y) << 16u;
 }
 
-// Of a grid by its number.
+// Blockers near a place in a grid, which is given by its number.
 NearList near_list(GridPlace grid, LitPlace lit, uint number) {
     const vec4 rule = grid_texel(number, 2u);
     if (rule.x == 0.0) return NearList(all_listed, 0u);

@@ -33,12 +33,12 @@ double finite(double value) { return std::isfinite(value) ? value : 0; }
 glm::dvec3 finite(const glm::dvec3& v) { return {finite(v.x), finite(v.y), finite(v.z)}; }
 
 struct LitFrame {
-    LitFrame(const Frame& f, LightAround a) : frame(f), around(std::move(a)), white(white_radiance(f)) {
+    LitFrame(const Frame& f, LightAround a) : frame(f), around(std::move(a)), white(around ? white_radiance(f) : 0) {
         for (const Light& light : f.lights) blockers.push_back(light_blockers(f, light));
     }
     const Frame& frame;
     LightAround around;
-    double white;
+    double white;                         ///< 0: no volumes light particles
     std::vector<LightBlockers> blockers;  ///< of Frame::lights; none stops the sun
 };
 
@@ -75,7 +75,7 @@ Fragment fragment_of(AlphaMode mode, double alpha, const SurfacePoint& surface, 
 // The color a particle is recorded with, already lit, and what its albedo makes of light around it: the same color over the
 // radiance of a white surface.
 glm::dvec3 particle_color(const LitFrame& scene, const SurfacePoint& surface) {
-    if (!scene.around || scene.white == 0) return surface.base_color;
+    if (scene.white == 0) return surface.base_color;
     const glm::dvec3 albedo = glm::clamp(surface.base_color / scene.white, 0.0, 1.0);
     return surface.base_color + albedo * scene.around(surface.position, glm::dvec3(0));
 }

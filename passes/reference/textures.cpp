@@ -87,6 +87,14 @@ glm::dvec4 texel(const Texture& texture, std::uint32_t mip, std::uint32_t x, std
 
 namespace {
 
+/// Two taps mixed by the fraction of the mip, which is one of the texture's.
+template <typename Tap>
+glm::dvec4 over_mips(double mip, const Tap& tap) {
+    const auto fine = static_cast<std::uint32_t>(mip);
+    const glm::dvec4 first = tap(fine);
+    return mip == fine ? first : glm::mix(first, tap(fine + 1), mip - fine);
+}
+
 /// The texel that holds uv.
 glm::dvec4 nearest(const Texture& texture, std::uint32_t mip, const glm::dvec2& uv) {
     const std::uint32_t width = mip_size(texture.width, mip), height = mip_size(texture.height, mip);
@@ -114,11 +122,7 @@ glm::dvec4 bilinear(const Texture& texture, std::uint32_t mip, const glm::dvec2&
 
 glm::dvec4 trilinear(const Texture& texture, const glm::dvec2& uv, double lod) {
     const double clamped = std::isnan(lod) ? 0 : std::clamp(lod, 0.0, double(texture.mips - 1));
-    const std::uint32_t fine = static_cast<std::uint32_t>(clamped);
-    const double coarser_share = clamped - fine;
-    const glm::dvec4 first = bilinear(texture, fine, uv);
-    if (coarser_share == 0) return first;
-    return glm::mix(first, bilinear(texture, fine + 1, uv), coarser_share);
+    return over_mips(clamped, [&](std::uint32_t mip) { return bilinear(texture, mip, uv); });
 }
 
 glm::dvec4 filtered(const Texture& texture, const glm::dvec2& uv, double lod) {
@@ -128,9 +132,7 @@ glm::dvec4 filtered(const Texture& texture, const glm::dvec2& uv, double lod) {
     if (texture.between_mips == MipFilter::none) mip = 0;
     if (texture.between_mips == MipFilter::nearest) mip = std::ceil(mip - 0.5);
     if ((level > 0 ? texture.minify : texture.magnify) == TexelFilter::linear) return trilinear(texture, uv, mip);
-    const auto fine = static_cast<std::uint32_t>(mip);
-    const glm::dvec4 first = nearest(texture, fine, uv);
-    return mip == fine ? first : glm::mix(first, nearest(texture, fine + 1, uv), mip - fine);
+    return over_mips(mip, [&](std::uint32_t one) { return nearest(texture, one, uv); });
 }
 
 double level_of_detail(const Texture& texture, const glm::dvec2& uv_per_x, const glm::dvec2& uv_per_y) {

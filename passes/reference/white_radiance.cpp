@@ -17,7 +17,7 @@ double largest(const glm::vec3& color) {
     return double(std::max(std::abs(color.x), std::max(std::abs(color.y), std::abs(color.z))));
 }
 
-/// What an area light shows to a place before it, square meters.
+/// Area that a light shows to a place before it, square meters.
 double shown_area(const Light& light, LightShape shape) {
     const double r = double(light.source_radius), u = double(light.half_extent.x), v = double(light.half_extent.y);
     if (shape == LightShape::rectangle) return 2 * u * 2 * v;

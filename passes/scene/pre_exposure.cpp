@@ -20,7 +20,7 @@ constexpr double least_white = 0x1p-6, most_white = 0x1p6;
 
 double brightest(const glm::vec3& color) { return std::max({std::abs(color.x), std::abs(color.y), std::abs(color.z)}); }
 
-/// What a surface beside an area light sees of it, square meters.
+/// Area of a light that a surface beside it sees, square meters.
 double seen_area(const Light& light) {
     const double radius = double(light.source_radius), disc = std::numbers::pi * radius * radius;
     const LightShape shape = facts_of(light.type).shape;
@@ -28,7 +28,7 @@ double seen_area(const Light& light) {
     return shape == LightShape::tube ? disc + 4 * radius * double(light.half_extent.x) : disc;
 }
 
-/// Of a white surface that faces the light at a quarter of its range.
+/// Radiance of a white surface that faces the light at a quarter of its range.
 double lit_white(const Light& light) {
     const double intensity = brightest(light.intensity);
     const LightShape shape = facts_of(light.type).shape;

@@ -20,7 +20,6 @@ constexpr auto jitters = choice_names({{jitter_none, "none"},
                                        {jitter_interleaved_gradient, "interleaved_gradient"},
                                        {jitter_hash, "hash"},
                                        {jitter_interleaved, "interleaved"}});
-constexpr std::string_view switches[] = {"off", "on"};
 constexpr auto resolutions = choice_names({{resolution_full, "full"}, {resolution_half, "half"}});
 constexpr auto extinctions = choice_names({{extinction_integrated, "integrated"}, {extinction_sampled, "sampled"}});
 constexpr auto normalizations = choice_names({{normalization_physical, "physical"}, {normalization_steps, "steps"}});

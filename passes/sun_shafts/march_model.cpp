@@ -205,7 +205,7 @@ glm::dvec3 March::radiance(const MarchedRay& ray) const {
     return glm::dvec3(input.frame.sun.irradiance) * factor * (scatters_by_step() ? double(params.intensity) : 1 / (4 * pi));
 }
 
-/// What every march found, one for `divisor` x `divisor` pixels.
+/// Lit shares of all rays, one for `divisor` x `divisor` pixels.
 class Shares {
 public:
     explicit Shares(const March& march)
@@ -221,7 +221,7 @@ public:
         const std::vector<Amount> from = amounts_;
         fill([&](std::uint32_t x, std::uint32_t y, std::uint32_t sample) { return blurred(from, {x, y}, sample); });
     }
-    /// Of a sample; among the four around a pixel bilinear where one stands for 2 x 2, by fit.
+    /// The share of a sample; among the four around a pixel bilinear where one stands for 2 x 2, by fit.
     Amount of(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const {
         if (divisor_ == 1) return amounts_[index(x, y, sample)];
         const double z = march_.end_depth(x, y, sample);

@@ -22,7 +22,7 @@ float end_depth(ivec3 at) {
     return depth > 0.0 ? min(view_z(depth), push.far) : push.far;
 }
 
-// Of lit shares: relative difference of depths at which a neighbor counts half.
+// Reach of lit shares: relative difference of depths at which a neighbor counts half.
 const float depth_tolerance = 1.0 / 32.0;
 
 float fit(float z, float other) {

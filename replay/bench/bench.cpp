@@ -72,19 +72,19 @@ TimedVariant timed_variant(const Variant& variant, const Run& run, const TimeRat
     const auto bytes = run.stage_bytes.find(std::string(name(variant.technique->stage)));
     if (bytes != run.stage_bytes.end()) timed.stage_bytes = bytes->second;
     for (const CounterRecord& counter : run.counters)
-        if (counter.technique == timed.technique && std::ranges::count(ratio.counters, counter.name, counter_name) > 0)
+        if (counter.technique == timed.technique && std::ranges::count(ratio.counters, counter.name) > 0)
             timed.counters.push_back(counter);
     return timed;
 }
 
 /// Why the two variants did the same work, or nothing: neither counted more than the ratio's witness asks for.
 std::string same_work(const MeasuredRatio& measured) {
-    const auto witness = witness_of(*measured.claim.ratio);
-    if (!witness) return {};
+    const RatioWitness& witness = measured.claim.ratio->witness;
+    if (witness.counter.empty()) return {};
     for (const TimedVariant* variant : {&measured.of, &measured.against})
         for (const CounterRecord& counter : variant->counters)
-            if (counter.name == witness->counter && double(counter.value) > witness->more_than) return {};
-    return std::string(witness->otherwise);
+            if (counter.name == witness.counter && double(counter.value) > witness.more_than) return {};
+    return std::string(witness.otherwise);
 }
 
 Result<MeasuredRatio> measure(Session& session, const Claim& claim, std::size_t repeats, TimedPairs& timed) {
@@ -124,20 +124,6 @@ Result<MeasuredRatio> measure(Session& session, const Claim& claim, std::size_t 
 }
 
 }  // namespace
-
-std::string_view counter_name(std::string_view named) { return named.substr(0, named.find(" > ")); }
-
-std::optional<RatioWitness> witness_of(const TimeRatio& ratio) {
-    for (const std::string_view named : ratio.counters) {
-        const std::string_view counter = counter_name(named);
-        if (counter.size() == named.size()) continue;
-        const std::string_view condition = named.substr(counter.size() + 3);
-        return RatioWitness{.counter = counter,
-                            .otherwise = condition.substr(condition.find(": ") + 2),
-                            .more_than = std::stod(std::string(condition))};
-    }
-    return std::nullopt;
-}
 
 std::vector<std::string> counted_steps(const TimeRatio& ratio) {
     if (ratio.stages.empty()) return {ratio.steps.begin(), ratio.steps.end()};

@@ -34,18 +34,6 @@ struct TimedVariant {
     std::uint64_t stage_bytes = 0;        ///< images and buffers first used by the technique
 };
 
-/// What must have happened for a ratio to compare different work: a counter of TimeRatio::counters with a condition and what is
-/// said where it does not hold, "overflowed > 0: nothing overflowed".
-struct RatioWitness {
-    std::string_view counter, otherwise;
-    double more_than = 0;
-};
-
-/// The one that a ratio names, or nothing.
-std::optional<RatioWitness> witness_of(const TimeRatio&);
-/// The counter's name without the condition.
-std::string_view counter_name(std::string_view named);
-
 struct MeasuredRatio {
     Claim claim;
     std::uint32_t width = 0, height = 0, samples = 1;

@@ -61,8 +61,9 @@ Ratios ratios() {
               .kind = CellKind::text,
               .shown = in_files},
              [](const MeasuredRatio& row) {
-                 const auto witness = witness_of(*row.claim.ratio);
-                 return cell_if_any(witness ? fmt::format("{} > {:g}", witness->counter, witness->more_than) : std::string());
+                 const RatioWitness& witness = row.claim.ratio->witness;
+                 if (witness.counter.empty()) return CellValue();
+                 return CellValue(fmt::format("{} > {:g}", witness.counter, witness.more_than));
              },
              OfRatio::every_row},
             {{.key = "samples", .title = "samples", .help = "samples per pixel", .kind = CellKind::count, .shown = in_files},

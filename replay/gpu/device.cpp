@@ -148,10 +148,6 @@ Result<DeviceInfo> choose(const std::vector<DeviceInfo>& devices, const std::str
                 best->lacks, list_of(devices));
 }
 
-}  // namespace
-
-namespace {
-
 /// A driver without its hardware fails here, and the machine then has no device.
 Result<std::vector<vk::raii::PhysicalDevice>> physical_devices(const Instance& instance) {
     try {

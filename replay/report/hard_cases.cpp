@@ -57,8 +57,8 @@ double error_of(const Seen& seen) {
     return worst(seen.truth, [&](std::size_t i, int c) { return seen.got.texels[i][c] - seen.truth.texels[i][c]; });
 }
 
-/// Of red, which only the front card has: the smallest over all frames and texels, and the largest. Infinite where it is no
-/// number.
+/// Shares of red, which only the front card has: the smallest over all frames and texels, and the largest. Infinite where it is
+/// no number.
 Shares shares_of(std::span<const Seen> frames) {
     Shares shares{.smallest = std::numeric_limits<double>::infinity(), .largest = -std::numeric_limits<double>::infinity()};
     for (const Seen& seen : frames)

@@ -17,7 +17,7 @@
 
 namespace strata {
 
-/// Of the front card, over a case's frames.
+/// Shares of the front card over a case's frames.
 struct Shares {
     double smallest = 0, largest = 0;
 };

@@ -169,23 +169,23 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
     const auto execution = execute(d, peeks.options());
     if (!execution) return execution.error();
     remember(d, *execution);
+    const auto read = [&](const std::vector<PeekedImage>& places, std::string_view pass, ImageSet& images,
+                          std::vector<LightFault>& faults) {
+        for (const PeekedImage& image : places) {
+            const HostImage& stored = execution->peeked[image.peek];
+            const ReferenceImage& values = images.emplace(image.name, in_double(stored)).first->second;
+            for (LightFault& fault : light_faults(image.name, stored.shape.format, values, pre_exposure())) {
+                fault.pass = pass;
+                faults.push_back(std::move(fault));
+            }
+        }
+    };
     if (!is_known) {
         found_.emplace(Found{std::move(keys), {}, {}, {}});
-        for (const PeekedImage& image : before) {
-            found_->images.emplace(image.name, in_double(execution->peeked[image.peek]));
-            std::ranges::move(light_faults(image.name, execution->peeked[image.peek], pre_exposure()),
-                              std::back_inserter(found_->light_faults));
-        }
-        for (LightFault& fault : found_->light_faults) fault.pass = "the stages before it";
+        read(before, "the stages before it", found_->images, found_->light_faults);
     }
     Inspected inspected{.choice = d.choices.at(stage), .result = {}, .light_faults = found_->light_faults};
-    for (const PeekedImage& image : result) {
-        inspected.result.emplace(image.name, in_double(execution->peeked[image.peek]));
-        for (LightFault& fault : light_faults(image.name, execution->peeked[image.peek], pre_exposure())) {
-            fault.pass = name(stage);
-            inspected.light_faults.push_back(std::move(fault));
-        }
-    }
+    read(result, name(stage), inspected.result, inspected.light_faults);
     return inspected;
 }
 
@@ -362,15 +362,14 @@ Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Again
     }
     const auto rounding = against == Against::truth ? Result(BlendRounding()) : this->rounding();
     if (!rounding) return rounding.error();
-    ImageSet stored_truth;
-    if (truth && pre_exposure() != 1) scale_light(stored_truth = *truth, pre_exposure());
+    ImageSet scaled_truth;
     Accuracy accuracy = judge_stage({.frame = loaded_->frame,
                                      .features = loaded_->features,
                                      .choice = inspected->choice,
                                      .before = found_->images,
                                      .result = inspected->result,
                                      .against = against,
-                                     .truth = truth && pre_exposure() != 1 ? &stored_truth : truth,
+                                     .truth = truth ? &in_unit(pre_exposure(), *truth, scaled_truth) : nullptr,
                                      .fragments = &found_->fragments,
                                      .rounding = *rounding,
                                      .snap_steps = device().snap_steps,

@@ -25,21 +25,23 @@ bool holds_light(std::string_view name) {
 
 std::vector<LightFault> light_faults(std::string_view name, const HostImage& image, double pre_exposure) {
     if (!holds_light(name)) return {};
+    return light_faults(name, image.shape.format, in_double(image), pre_exposure);
+}
+
+std::vector<LightFault> light_faults(std::string_view name, Format format, const ReferenceImage& image, double pre_exposure) {
+    if (!holds_light(name)) return {};
     LightFault not_finite{.kind = LightFault::Kind::not_finite, .image = std::string(name)};
     LightFault cut_off{.kind = LightFault::Kind::cut_off, .image = std::string(name)};
     cut_off.limit = largest_half / (holds_radiance(name) ? pre_exposure : 1);
-    const bool has_limit = is_half(image.shape.format);
-    const auto& [width, height, depth] = image.shape.extent;
-    for (std::uint32_t layer = 0; layer < image.shape.layers * depth; ++layer)
-        for (std::uint32_t y = 0; y < height; ++y)
-            for (std::uint32_t x = 0; x < width; ++x) {
-                const glm::dvec3 light(texel(image, x, y, layer));
-                const double largest = std::max({std::abs(light.x), std::abs(light.y), std::abs(light.z)});
-                const bool is_finite = std::isfinite(light.x) && std::isfinite(light.y) && std::isfinite(light.z);
-                if (is_finite && !(has_limit && largest >= largest_half)) continue;
-                LightFault& fault = is_finite ? cut_off : not_finite;
-                if (fault.texels++ == 0) fault.first = {x, y};
-            }
+    const bool has_limit = is_half(format);
+    for (std::size_t i = 0; i < image.texels.size(); ++i) {
+        const glm::dvec3 light(image.texels[i]);
+        const double largest = std::max({std::abs(light.x), std::abs(light.y), std::abs(light.z)});
+        const bool is_finite = std::isfinite(light.x) && std::isfinite(light.y) && std::isfinite(light.z);
+        if (is_finite && !(has_limit && largest >= largest_half)) continue;
+        LightFault& fault = is_finite ? cut_off : not_finite;
+        if (fault.texels++ == 0) fault.first = {i % image.width, i / image.width % image.height};
+    }
     std::vector<LightFault> faults;
     for (LightFault* fault : {&not_finite, &cut_off})
         if (fault->texels > 0) faults.push_back(std::move(*fault));

@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include "passes/reference/image.h"
 #include "replay/images/host_image.h"
 
 namespace strata {
@@ -28,6 +29,8 @@ bool holds_light(std::string_view image);
 
 /// At most one of each kind, in an image as the device stores it; none where it holds no light.
 std::vector<LightFault> light_faults(std::string_view image, const HostImage&, double pre_exposure);
+/// The same of an image that was read in double.
+std::vector<LightFault> light_faults(std::string_view image, Format, const ReferenceImage&, double pre_exposure);
 
 /// "69 pixels of 'display' are not finite after film, first at 12, 7"
 std::string sentence(const LightFault&);

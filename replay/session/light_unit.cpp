@@ -41,4 +41,11 @@ void scale_light(ImageSet& images, double factor) {
     }
 }
 
+const ImageSet& in_unit(double factor, const ImageSet& images, ImageSet& room) {
+    if (factor == 1) return images;
+    room = images;
+    scale_light(room, factor);
+    return room;
+}
+
 }  // namespace strata

@@ -16,5 +16,7 @@ bool holds_radiance(std::string_view name);
 HostImage scaled_light(std::string_view name, HostImage, double factor);
 /// The same of images in double, with their standard errors.
 void scale_light(ImageSet&, double factor);
+/// The images themselves where the factor is 1, else a scaled copy of them in `room`.
+const ImageSet& in_unit(double factor, const ImageSet&, ImageSet& room);
 
 }  // namespace strata

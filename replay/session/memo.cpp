@@ -59,7 +59,7 @@ KeptPass* Memo::reserve(std::uint64_t key, std::span<const ImageRecord> images) 
     KeptPass pass{.last_used = ++clock_};
     for (const ImageRecord& image : images) {
         pass.images.push_back({image.name, {next_id_++}, image.shape});
-        // Of an image beyond its limits a driver says anything: lavapipe 22.3 counts 32 bits.
+        // A driver says anything about an image beyond its limits: lavapipe 22.3 counts 32 bits.
         pass.bytes += std::max(bytes(image.shape), executor_->image_bytes(image.shape));
     }
     if (pass.bytes > budget_) return nullptr;

@@ -84,9 +84,8 @@ Result<Run> DeviceSession::run(const Request& request) {
 Result<Run> DeviceSession::run_from(const Request& request, Stage stage, const ImageSet& outputs) {
     if (const auto loaded = load_variant(request.variant); !loaded) return loaded.error();
     const Sources sources{*loaded_, scene_, device(), shaders()};
-    ImageSet stored;
-    if (pre_exposure() != 1) scale_light(stored = outputs, pre_exposure());
-    const ImageSet& given = pre_exposure() == 1 ? outputs : stored;
+    ImageSet scaled;
+    const ImageSet& given = in_unit(pre_exposure(), outputs, scaled);
     const auto declared = failures_as_errors([&] { return declare_from(request, sources, stage, given); });
     if (!declared) return declared.error();
     const auto uploaded = failures_as_errors([&]() -> Result<void> {

@@ -37,7 +37,7 @@ constexpr long before_main = 100, never = 0, for_good = 1'000'000'000;
 
 class FailingAllocations : public testing::TestWithParam<VerbLine> {
 protected:
-    /// What the verbs read.
+    /// Makes the files that the verbs read.
     static void prepare() {
         ASSERT_EQ(strata("record three_panes -o a.strata --size 32x18").code, 0);
         ASSERT_EQ(strata("replay a.strata -o first").code, 0);
@@ -63,7 +63,7 @@ protected:
         return allocations;
     }
 
-    /// What the verb wrote.
+    /// The file that the verb wrote.
     static std::string made() {
         for (const char* name : {"made.glb", "made.json"})
             if (std::ifstream file(folder() / name, std::ios::binary); file) return {std::istreambuf_iterator<char>(file), {}};

@@ -81,6 +81,7 @@ TEST(TableOutput, AsCommaSeparatedValuesAndAsJsonIsOfEveryVerbThatPrintsATable) 
         const json made = json::parse(strata(fmt::format("{} --json", verb)).out);
         for (const char* key : {"schema", "schema_version", "date", "program"})
             EXPECT_TRUE(made.contains(key)) << verb << " " << key;
+        EXPECT_THAT(made["schema"].get<std::string>(), HasSubstr("strata.")) << verb;
     }
 }
 

@@ -1,4 +1,4 @@
-// What the default suite takes of a product that the exhaustive one runs whole.
+// A part of a product for the default suite; the exhaustive one runs it whole.
 #pragma once
 
 #include <cstddef>

@@ -41,7 +41,7 @@ struct DeviceGrid {
 
     std::uint32_t cells() const { return grid.cells.x * grid.cells.y * grid.cells.z; }
     std::uint64_t all_channels() const { return std::uint64_t{cells()} * channels; }
-    /// Of `sums`, of `total`, and of what a step holds.
+    /// Sizes of `sums`, of `total`, and of a step's light.
     std::uint64_t sums_bytes() const { return all_channels() * channel_bytes; }
     std::uint64_t total_bytes() const {
         return storage == storage_half ? unit_words * sizeof(uint) + all_channels() * half_channel_bytes

@@ -42,7 +42,6 @@ constexpr auto occlusions = choice_names({{occlusion_recorded, "recorded"},
                                           {occlusion_both, "both"}});
 constexpr auto irradiances = choice_names({{irradiance_face, "face"}, {irradiance_cell, "cell"}});
 constexpr auto resolutions = choice_names({{resolution_full, "full"}, {resolution_half, "half"}});
-constexpr std::string_view switches[] = {"off", "on"};
 constexpr auto relights = choice_names({{relight_always, "always"}, {relight_changed, "changed"}});
 constexpr auto cell_scales = choice_names({{cells_half, "1/2"}, {cells_recorded, "1"}, {cells_double, "2"}});
 constexpr auto self_lights = choice_names({{self_kept, "kept"}, {self_uninjected, "uninjected"}, {self_facing, "by_facing"}});
@@ -214,24 +213,25 @@ Technique lpv() {
                                               .help = "format of light in cells; float: 32 bits; half: 16 bits, scaled by the "
                                                       "brightest cell: less than half the memory",
                                               .choices = storages}),
-             param<&LpvParams::self_light>(
-                 {.name = "self_light",
-                  .high = 2,
-                  .fallback = self_facing,
-                  .help = "light that returns to surfaces facing like its source; uninjected: without injected cells; "
-                          "by_facing: left out by normals, twice the memory",
-                  .choices = self_lights}),
+             param<&LpvParams::self_light>({.name = "self_light",
+                                            .high = 2,
+                                            .fallback = self_facing,
+                                            .help = "light that returns to the surface that reflected it; kept: stays; "
+                                                    "uninjected: cells do not show what was injected "
+                                                    "into them; by_facing: left out where normals face alike, twice the memory",
+                                            .choices = self_lights}),
              param<&LpvParams::reading>(
                  {.name = "reading",
                   .high = 2,
                   .fallback = .5,
                   .help = "distance from a surface along its normal at which cells are read, cells; 1.5: past its own cell"}),
-             param<&LpvParams::lobes>({.name = "lobes",
-                                       .high = 1,
-                                       .fallback = lobes_flow,
-                                       .help = "direction of light that a cell face takes; face: its normal, as published; flow: "
-                                               "away from the sending cell, reaches farther",
-                                       .choices = lobe_rules})},
+             param<&LpvParams::lobes>(
+                 {.name = "lobes",
+                  .high = 1,
+                  .fallback = lobes_flow,
+                  .help = "direction in which a cell's face sends on the light that it takes; face: along its normal, as "
+                          "published; flow: away from the cell it came from, reaches farther",
+                  .choices = lobe_rules})},
         .variants = {"iterations=8",
                      "iterations=32",
                      "iterations=64",

@@ -21,7 +21,6 @@ ImageSet tiled_model(const StageInput&, const Settings&);
 
 namespace {
 
-constexpr std::string_view switches[] = {"off", "on"};
 constexpr auto blocker_uses =
     choice_names({{blockers_per_pixel, "per_pixel"}, {blockers_tile_only, "tile_only"}, {blockers_off, "off"}});
 constexpr auto overflows = choice_names({{overflow_batch, "batch"}, {overflow_drop, "drop"}});

@@ -20,7 +20,6 @@ namespace {
 constexpr auto forms = choice_names({{form_horizon, "horizon"}, {form_xray, "xray"}});
 constexpr auto tap_counts = choice_names({{taps_8, "8"}, {taps_12, "12"}, {taps_24, "24"}, {taps_96, "96"}});
 constexpr auto resolutions = choice_names({{resolution_full, "full"}, {resolution_half, "half"}});
-constexpr std::string_view switches[] = {"off", "on"};
 constexpr auto edge_stops = choice_names({{edge_stop_plane, "plane"}, {edge_stop_depth, "depth"}});
 constexpr auto noises = choice_names({{noise_none, "none"}, {noise_interleaved, "interleaved"}, {noise_hash, "hash"}});
 constexpr auto material_rules = choice_names({{material_product, "product"}, {material_min, "min"}});

@@ -26,7 +26,6 @@ constexpr auto jitters = choice_names({{jitter_none, "none"}, {jitter_world, "wo
 constexpr auto caster_choices = choice_names({{casters_all, "all"}, {casters_fixed, "fixed"}});
 constexpr auto beyond_choices = choice_names({{beyond_open, "open"}, {beyond_dry, "dry"}});
 constexpr auto forms = choice_names({{form_porosity, "porosity"}, {form_xray, "xray"}});
-constexpr std::string_view switches[] = {"off", "on"};
 constexpr std::string_view map_name = "rain map", records_name = "places of rain maps";
 
 /// One for each direction of the rain.

@@ -26,7 +26,6 @@ constexpr auto forms = choice_names({{form_hierarchical, "hierarchical"},
                                      {form_plane, "plane"},
                                      {form_slab, "slab"}});
 constexpr std::string_view blocks[] = {"2", "4", "8"};
-constexpr std::string_view switches[] = {"off", "on"};
 
 const std::vector<ShadowView>& views_of(const FrameImages& frame) {
     return frame.facts->shadow_views(static_cast<Allocation>(frame.shadow_filter.allocation));

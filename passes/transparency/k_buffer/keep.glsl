@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Push { KBufferParams params; };
 layout(set = 0, binding = 1, scalar) buffer Slots { uint64_t slots[]; };
 layout(set = 0, binding = 2, scalar) buffer Counters { KBufferCounters counters; };
 
-// What a neutral fragment takes of the light behind it: alpha, where nothing is transmitted, which has more bits than 1 - t.
+// Share of the light behind it that a neutral fragment takes: alpha, where nothing is transmitted, which has more bits than 1 - t.
 float hidden_share(Fragment fragment) {
     return fragment.t.r == 1.0 - fragment.alpha ? fragment.alpha : 1.0 - fragment.t.r;
 }

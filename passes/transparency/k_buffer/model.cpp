@@ -73,7 +73,7 @@ std::optional<std::uint64_t> keep(std::vector<std::uint64_t>& nearest, std::uint
     return fallen;
 }
 
-/// Of the light behind a neutral fragment.
+/// Share that a neutral fragment takes of the light behind it.
 double hidden_share(const Fragment& f) { return 1 - f.transmittance.x; }
 
 bool is_same(const Fragment& a, const Fragment& b) {

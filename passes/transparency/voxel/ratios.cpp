@@ -8,18 +8,17 @@ std::vector<TimeRatio> voxel_ratios() {
     using Names = std::vector<std::string_view>;
     const Names splat = {"/splat"}, clear = {"/clear"}, integrate = {"/integrate"}, volume = {"/clear", "/integrate"},
                 draws = {"/accumulate"}, zero = {"/zero_depth", "/quads", "/full_screen"}, stage = {};
-    const Names added = {"atomics", "border atomics", "overflowed"},
-                overflowing = {"atomics", "border atomics", "overflowed > 0: nothing overflowed"}, drawn = {"drawn", "atomics"},
-                blended = {"drawn", "fragments", "atomics"},
-                culled = {"drawn", "unseen", "zero tiles > 0: no tile becomes opaque"},
+    const Names added = {"atomics", "border atomics", "overflowed"}, drawn = {"drawn", "atomics"},
+                blended = {"drawn", "fragments", "atomics"}, culled = {"drawn", "unseen", "zero tiles"},
                 filled = {"voxels", "cleared", "integrated"}, warped = {"slices used", "virtual slices", "blocks"};
+    const RatioWitness overflow = {"overflowed", "nothing overflowed"}, opaque = {"zero tiles", "no tile becomes opaque"};
     return {
         {"splat: compare-and-swap that saturates, against noting overflows", "splat=saturating", "splat=overflow_minimum", splat,
-         1.95 / .91, "1.95 / .91 ms, 17 million pixels, 1080p, PS5", "ash_storm", overflowing},
+         1.95 / .91, "1.95 / .91 ms, 17 million pixels, 1080p, PS5", "ash_storm", added, overflow},
         {"splat: noting overflows, against letting them wrap", "splat=overflow_minimum", "splat=wrapping", splat, .91 / .89,
-         ".91 / .89 ms, 17 million pixels, 1080p, PS5", "ash_storm", overflowing},
+         ".91 / .89 ms, 17 million pixels, 1080p, PS5", "ash_storm", added, overflow},
         {"splat: a word per slice, against noting overflows", "splat=words", "splat=overflow_minimum", splat, .91 / .91,
-         ".91 / .91 ms, 17 million pixels, 1080p, PS5", "ash_storm", overflowing},
+         ".91 / .91 ms, 17 million pixels, 1080p, PS5", "ash_storm", added, overflow},
         {"splat: into two slices, against one", "splatting=linear", "splatting=point", splat, .81 / .75,
          ".81 / .75 ms, mono; the slide shows the numbers of its formats once more", "particle_storm", added},
         {"splat: RGB, against mono", "channels=rgb", "channels=mono", splat, .95 / .81,
@@ -39,9 +38,9 @@ std::vector<TimeRatio> voxel_ratios() {
         {"clearing and integration: RGB, against mono", "channels=rgb", "channels=mono", volume, 3., "3 times for each",
          "particle_storm", filled},
         {"zero-transmittance depth: pixel by pixel, against quads", "culling=full_screen", "culling=quads_16", zero, .2 / .014,
-         ".2 / .014 ms, 4K from 480 x 270", "smoke_core", culled},
+         ".2 / .014 ms, 4K from 480 x 270", "smoke_core", culled, opaque},
         {"draws: all, against what is seen", "culling=off", "culling=quads_16", draws, 2.035 / 1.78,
-         "2.035 / 1.78 ms, 21276176 / 18922855 fragments", "smoke_core", culled},
+         "2.035 / 1.78 ms, 21276176 / 18922855 fragments", "smoke_core", culled, opaque},
         {"draws: RGB, against mono", "channels=rgb", "channels=mono", draws, 1.05, "1.05 times", "particle_storm", drawn},
         {"the stage: RGB, against mono", "channels=rgb", "channels=mono", stage, 3.11 / 2.95, "3.11 / 2.95 ms; 2.8 without",
          "particle_storm", drawn},

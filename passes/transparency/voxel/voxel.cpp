@@ -36,7 +36,6 @@ constexpr auto roundings = choice_names({{rounding_nearest, "nearest"}, {roundin
 constexpr auto thicknesses = choice_names({{thickness_point, "point"}, {thickness_segment, "segment"}});
 constexpr auto curves = choice_names({{curve_slices, "slices"}, {curve_thickness, "thickness"}, {curve_linear, "linear"}});
 constexpr auto volumes = choice_names({{volume_dense, "dense"}, {volume_adaptive, "adaptive"}, {volume_sparse, "sparse"}});
-constexpr std::string_view skippings[] = {"off", "on"};
 constexpr auto ranges = choice_names({{range_frame, "frame"}, {range_fixed, "fixed"}});
 constexpr std::string_view resolutions[] = {"full", "half", "quarter", "eighth", "sixteenth"};
 constexpr auto preparations = choice_names({{prepared_after_opaque, "after_opaque"}, {prepared_before_opaque, "before_opaque"}});
@@ -111,7 +110,7 @@ std::vector<Param> code_params() {
              .high = 1,
              .fallback = 1,
              .help = "on: skips slices that a tile of 8x8 columns does not use when clearing and integrating",
-             .choices = skippings}),
+             .choices = switches}),
         param<&VoxelParams::splat>(
             {.name = "splat",
              .group = "format of the volume",

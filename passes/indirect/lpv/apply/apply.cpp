@@ -166,7 +166,7 @@ struct VolumeLayout {
     std::uint32_t rows = 0;
 };
 
-/// Of a grid's cells: one of their light, one of the way that its sources face.
+/// Records of a grid's cells: one of their light, one of the way that its sources face.
 std::uint32_t cell_records(const DeviceGrid& grid) { return grid.cells() * (grid.channels / color_channels); }
 
 VolumeLayout volume_layout(const FrameImages& frame, std::span<const DeviceGrid> grids) {

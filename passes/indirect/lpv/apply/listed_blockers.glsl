@@ -1,12 +1,11 @@
 // The lists of blockers near macro-cells as this stage finds them, before it hands them on.
 #ifndef PASSES_INDIRECT_LPV_LISTED_BLOCKERS_GLSL
 #define PASSES_INDIRECT_LPV_LISTED_BLOCKERS_GLSL
+#include "passes/indirect/lpv/apply/reading.glsl"
 #include "passes/indirect/lpv/lpv.shared.h"
 #include "passes/indirect/near_blockers.glsl"
 
 layout(constant_id = 5) const uint has_macro_cells = 0u;  // 0: all blockers of the frame are near
-
-layout(constant_id = 98) const float reading = 0.5;    // cells before a surface at which cells are read
 
 layout(set = 0, binding = 7, scalar) readonly buffer MacroCells { uint macro_cells[]; };
 

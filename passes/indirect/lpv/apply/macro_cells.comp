@@ -2,13 +2,12 @@
 // along the rectangle's normal, a side of the box, or across a side of either.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "passes/indirect/lpv/apply/reading.glsl"
 #include "passes/indirect/lpv/lpv.shared.h"
 #include "passes/indirect/macro_cells.glsl"
 #include "passes/shaders/finished.glsl"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
-
-layout(constant_id = 98) const float reading = 0.5;  // cells before a surface at which cells are read
 
 layout(push_constant, scalar) uniform Push { GridPlace grid; };
 layout(set = 0, binding = 7, scalar) writeonly buffer MacroCells { uint macro_cells[]; };

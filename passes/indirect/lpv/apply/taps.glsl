@@ -1,4 +1,4 @@
-// What a surface takes of a grid: the cells around a place before it, without those that a blocker near its macro-cell hides
+// Light that a surface takes of a grid: of the cells around a place before it, without those that a blocker near its macro-cell hides
 // (docs/algorithms/lighting.md 5.8).
 #ifndef PASSES_INDIRECT_LPV_TAPS_GLSL
 #define PASSES_INDIRECT_LPV_TAPS_GLSL

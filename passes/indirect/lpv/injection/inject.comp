@@ -52,7 +52,7 @@ void inject(vec3 surface, vec3 n, vec3 flux) {
     add_lobe(cell_index(push.grid, cell), flux, n, push.fixed_one);
 }
 
-// What a light reaches is on the light's side of its blockers by the rule of ways, too: else cells behind a blocker would take light.
+// A place that a light reaches is on its side of its blockers by the rule of ways, too: else cells behind a blocker would take light.
 bool arrives(LightRecord light, vec3 place, vec3 n) {
     if (!blockers_pass(light, off_surface(place, n), low_bits(light.blockers), low_bits(light.portals))) return false;
     return guards == 0u || !is_behind_blocker(light, way_start(LitPlace(view.to_world * place, view.to_world * n)));

@@ -98,7 +98,7 @@ struct TexelLattice {
         // Fewer texels than cells: a whole number of cells makes a texel.
         for (n = 1; n <= 1024 && (set(0, n * box.cell), width(box) > size * texel); ++n) {}
     }
-    /// Of the map, with a texel for its place on the lattice.
+    /// Width of the map in meters, with a texel for its place on the lattice.
     double width(const MappedBox& box) const {
         return std::max(glm::dot(glm::abs(u), box.high - box.low), glm::dot(glm::abs(v), box.high - box.low)) + texel;
     }

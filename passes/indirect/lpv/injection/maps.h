@@ -30,7 +30,7 @@ struct LightMaps {
 
 /// Of a light that has a position: one map of a spot, else six.
 LightMaps maps_around(const Frame&, const Light&, std::uint32_t map_size);
-/// Of parallel light: one over the grid, three times as large. A grid that moves by whole cells up or down has other texels on
+/// One map of parallel light over the grid, three times as large. A grid that moves by whole cells up or down has other texels on
 /// its walls: the light of `courtyard` changes by 11 % with as large a map, by 2.7 % with one twice as large.
 LightMaps maps_over(const SceneFacts&, const Light&, const LightGrid&, std::uint32_t map_size);
 inline constexpr std::uint32_t parallel_map_scale = 3;

@@ -57,7 +57,7 @@ ivec3 receiving_cell(GridPlace grid, vec3 surface, vec3 n, float bias) {
     return cell;
 }
 
-// Of one channel. Sums of l0 are never negative.
+// Adds the coefficients of one channel. Sums of l0 are never negative.
 void add_to_sum(uint cell, uint channel, vec4 lobe) {
     for (uint i = 0u; i < 4u; ++i) {
         const int part = int(roundEven(lobe[i])), before = atomicAdd(sums[4u * (cell * channels + channel) + i], part);

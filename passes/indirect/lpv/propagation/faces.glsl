@@ -20,7 +20,7 @@ vec2 moment_aside() {
     return vec2(0.3383564674, 0.2193731309);
 }
 
-// Of the light that a face beside takes: how much of its direction is along the way, and how much across the face.
+// Direction of the light that a face beside takes: how much of its direction is along the way, and how much across the face.
 vec2 lobe_aside() {
     if (lobes == lobes_face) return vec2(0.0, 1.0);
     return vec2(0.8944271910, 0.4472135955);

@@ -45,7 +45,7 @@ float used_slices(uvec2 tile) {
 
 float place_of_slice(uint slice) { return float(slice < physical_slices() ? virtual_slice(slice) : virtual_slices()); }
 
-// Of every channel; 0 where one of them never saturates.
+// Depth at which every channel is saturated; 0 where one of them never is.
 float saturation_depth(uvec2 texel) {
     uint last = 0u;
     for (uint channel = 0u; channel < push.channels; ++channel) last = max(last, first_with(texel, channel, full_integral()));
