@@ -13,7 +13,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 
 packages=(
-    g++ cmake ninja-build ccache pkg-config glslang-tools
+    g++ cmake ninja-build ccache pkg-config glslang-tools glslang-dev
     libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers
     libspirv-cross-c-shared-dev libfmt-dev libglm-dev libtbb-dev libzstd-dev libxxhash-dev
     libflatbuffers-dev flatbuffers-compiler libmeshoptimizer-dev libstb-dev
@@ -82,6 +82,11 @@ fuzz() {
     grep -E 'number_of_executed_units' "$out/$name.log" >&2
 }
 
+# Runs one of two halves of a program's tests under sanitizers: run_half NAME 0|1.
+run_half() {
+    LLVM_PROFILE_FILE="build-sanitize/profiles/$1-%p%c.profraw" GTEST_TOTAL_SHARDS=2 GTEST_SHARD_INDEX=$2 "build-sanitize/$1" --gtest_brief=1
+}
+
 case "${1:-build}" in
     build)
         install_missing "${packages[@]}"
@@ -122,10 +127,11 @@ case "${1:-build}" in
             *) usage ;;
         esac
         build sanitize "${programs[@]}"
+        export -f run_half
         rm -rf build-sanitize/profiles
         for program in "${programs[@]}"; do
             say "$program under sanitizers"
-            LLVM_PROFILE_FILE="build-sanitize/profiles/$program-%p%c.profraw" "build-sanitize/$program" --gtest_brief=1
+            printf '0\n1\n' | xargs -P 2 -I HALF bash -euo pipefail -c "run_half $program HALF"
         done
         tests/line_coverage.sh
         if [ "${2:-}" = all ]; then

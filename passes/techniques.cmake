@@ -4,26 +4,36 @@
 
 set(generated_passes ${CMAKE_BINARY_DIR}/generated/passes)
 
-# How glslangValidator is called, here and by a program that compiles changed shaders (embedded in it).
+# How a program that compiles changed shaders calls glslangValidator (embedded in it). compile_shaders does the same.
 set(glsl_options --quiet --target-env vulkan1.3)
 
-# One SPIR-V file from one GLSL file, rebuilt when anything it includes changes. Appends to the variable named by spirv_list.
-function(compile_shader source spirv_list)
-    file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR}/passes ${source})
-    set(compiled ${CMAKE_BINARY_DIR}/shaders/${name}.spv)
-    get_filename_component(folder ${compiled} DIRECTORY)
-    file(MAKE_DIRECTORY ${folder})
+# A SPIR-V file from each GLSL file below the folder, all of them rebuilt when one of them or anything they include changes: what
+# depends on shaders/compiled. Sets spirv_list.
+function(compile_shaders spirv_list)
+    add_executable(compile_shaders shaders/compiler/compile_shaders.cpp)
+    target_compile_features(compile_shaders PRIVATE cxx_std_20)
+    target_link_libraries(compile_shaders PRIVATE glslang::SPIRV glslang::glslang-default-resource-limits)
+    file(GLOB_RECURSE names CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.comp *.vert *.geom *.frag)
+    set(folder ${CMAKE_BINARY_DIR}/shaders)
+    foreach(name IN LISTS names)
+        get_filename_component(home ${folder}/${name} DIRECTORY)
+        file(MAKE_DIRECTORY ${home})
+    endforeach()
+    list(JOIN names "\n" lines)
+    file(CONFIGURE OUTPUT ${folder}/names CONTENT "${lines}\n" @ONLY)
     add_custom_command(
-        OUTPUT ${compiled}
-        COMMAND Vulkan::glslangValidator ${glsl_options} -I${CMAKE_SOURCE_DIR} -I${CMAKE_BINARY_DIR}/generated
-                --depfile ${compiled}.d -o ${compiled} ${source}
-        DEPENDS ${source} DEPFILE ${compiled}.d
-        COMMENT "GLSL ${name}")
-    set(${spirv_list} ${${spirv_list}} ${compiled} PARENT_SCOPE)
+        OUTPUT ${folder}/compiled
+        COMMAND compile_shaders ${folder}/names ${CMAKE_CURRENT_SOURCE_DIR} ${folder} ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/generated
+        DEPENDS compile_shaders ${folder}/names DEPFILE ${folder}/compiled.d
+        COMMENT "GLSL")
+    list(TRANSFORM names PREPEND ${folder}/)
+    list(TRANSFORM names APPEND .spv)
+    set(${spirv_list} ${names} PARENT_SCOPE)
 endfunction()
 
-# Files in one assembly file (.incbin), each between the symbols strata_<kind>_<index> and strata_<kind>_<index>_end.
-function(embed_files target kind)
+# Files in one assembly file (.incbin), each between the symbols strata_<kind>_<index> and strata_<kind>_<index>_end; made anew
+# when one of the files made_by changes.
+function(embed_files target kind made_by)
     set(assembly ".section .rodata\n")
     set(index 0)
     foreach(file IN LISTS ARGN)
@@ -33,13 +43,13 @@ function(embed_files target kind)
     endforeach()
     string(APPEND assembly ".section .note.GNU-stack,\"\",@progbits\n")
     file(CONFIGURE OUTPUT ${generated_passes}/embedded_${kind}s.S CONTENT "${assembly}" @ONLY)
-    set_source_files_properties(${generated_passes}/embedded_${kind}s.S PROPERTIES OBJECT_DEPENDS "${ARGN}")
+    set_source_files_properties(${generated_passes}/embedded_${kind}s.S PROPERTIES OBJECT_DEPENDS "${made_by}")
     target_sources(${target} PRIVATE ${generated_passes}/embedded_${kind}s.S)
 endfunction()
 
 # All shaders and a C++ table of their names.
 function(embed_shaders target)
-    embed_files(${target} shader ${ARGN})
+    embed_files(${target} shader ${CMAKE_BINARY_DIR}/shaders/compiled ${ARGN})
     set(externs "")
     set(rows "")
     set(index 0)
@@ -73,7 +83,7 @@ function(embed_sources target)
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.comp *.vert *.geom *.frag *.glsl *.shared.h shader_interop.h)
     set(generated ${generated_passes}/gbuffer/decoders.glsl ${generated_passes}/gbuffer/encoders.glsl)
     list(APPEND sources ${generated})
-    embed_files(${target} source ${sources})
+    embed_files(${target} source "${sources}" ${sources})
     set(externs "")
     set(rows "")
     set(index 0)
@@ -208,11 +218,7 @@ function(add_techniques target)
     write_table(${target} technique_table Technique passes/technique.h ${ARGN})
     write_gbuffer_coders(${ARGN})
 
-    set(spirv "")
-    file(GLOB_RECURSE shaders CONFIGURE_DEPENDS *.comp *.vert *.geom *.frag)
-    foreach(shader IN LISTS shaders)
-        compile_shader(${shader} spirv)
-    endforeach()
+    compile_shaders(spirv)
     embed_shaders(${target} ${spirv})
     embed_sources(${target})
     file(GLOB_RECURSE tests CONFIGURE_DEPENDS *_test.cpp)

@@ -105,7 +105,7 @@ private:
 
     void read_triangles() {
         if (primitive_.mode != triangle_list && primitive_.mode != triangle_strip && primitive_.mode != triangle_fan) {
-            streams_.warnings.push_back("points and lines are ignored");
+            streams_.warnings.emplace_back("points and lines are ignored");
             return;
         }
         const std::size_t vertices = streams_.mesh.positions.size();
@@ -145,7 +145,7 @@ private:
         const bool more = std::any_of(attributes.begin(), attributes.end(), [](const auto& attribute) {
             return attribute.first != "POSITION" && attribute.first != "NORMAL" && attribute.first != "TANGENT";
         });
-        if (more) streams_.warnings.push_back("morph targets move positions, normals and tangents only; the rest is ignored");
+        if (more) streams_.warnings.emplace_back("morph targets move positions, normals and tangents only; the rest is ignored");
     }
 
     /// All sets of joints, one vertex after another.

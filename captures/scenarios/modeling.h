@@ -8,11 +8,7 @@
 
 #include <glm/glm.hpp>
 
-namespace strata {
-
-struct Mesh;  // capture_format/frame/mesh.h
-
-}  // namespace strata
+#include "capture_format/frame/mesh.h"
 
 namespace strata::scenario::part {
 

@@ -73,7 +73,7 @@ std::uint32_t material_slice(const SurfacePoint& surface) {
 
 double material_gloss(const SurfacePoint& surface, std::uint32_t slice) {
     if (surface.model == LightingModel::lambert) return 0;
-    constexpr std::array<float, table_slices> per_f0 = {gloss_rough, gloss_blinn, gloss_phong, gloss_metal};
+    const std::array<float, table_slices> per_f0 = {gloss_rough, gloss_blinn, gloss_phong, gloss_metal};
     const glm::dvec3 f0 = glm::mix(glm::dvec3(0.04), surface.base_color, surface.metallic);
     return std::min(double(per_f0[slice]) * (f0.x + f0.y + f0.z) / 3, 1.0);
 }

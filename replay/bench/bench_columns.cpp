@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "passes/claims.h"
+#include "passes/technique.h"
 #include "replay/bench/bench.h"
 #include "replay/json_text.h"
 #include "replay/plural.h"

@@ -40,7 +40,7 @@ struct GpusArguments {
     bool list = false, json = false;
 };
 
-nlohmann::ordered_json json_of(const DeviceInfo& device) {
+nlohmann::ordered_json gpu_json(const DeviceInfo& device) {
     return {{"index", device.index},
             {"name", device.name},
             {"kind", device.kind},
@@ -55,7 +55,7 @@ Result<void> list_gpus(const GpusArguments& options) {
     if (!devices) return devices.error();
     nlohmann::ordered_json json{{"schema", "strata.gpus"}, {"schema_version", 1}, {"gpus", nlohmann::ordered_json::array()}};
     for (const DeviceInfo& device : *devices) {
-        json["gpus"].push_back(json_of(device));
+        json["gpus"].push_back(gpu_json(device));
         if (options.json) continue;
         to_stdout("{}  {}  ({}, {} {}){}\n", device.index, device.name, device.kind, device.driver, device.driver_version,
                   device.lacks.empty() ? "" : "  cannot replay: lacks " + device.lacks);

@@ -8,7 +8,7 @@
 namespace strata {
 namespace {
 
-constexpr double least = 1e-5;
+constexpr double least_figure = 1e-5;
 
 /// The mean of a figure over rows; nothing when one of them lacks it.
 std::optional<double> mean_of(std::span<const Measurement* const> rows,
@@ -46,7 +46,7 @@ void mark_fronts(Pool& pool) {
 
 double geometric_mean(std::span<const double> values) {
     double logs = 0;
-    for (const double value : values) logs += std::log(std::max(value, least));
+    for (const double value : values) logs += std::log(std::max(value, least_figure));
     return values.empty() ? 0 : std::exp(logs / double(values.size()));
 }
 

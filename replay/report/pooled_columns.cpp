@@ -1,6 +1,7 @@
 // What a pool says of each of its rows. Keys are those of report_columns.cpp where the values are means of these.
 #include <algorithm>
 
+#include "passes/stages.h"
 #include "replay/report/report_columns.h"
 #include "replay/report/variants.h"
 

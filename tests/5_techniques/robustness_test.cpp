@@ -179,7 +179,7 @@ std::string name_of(const testing::TestParamInfo<HardGroup>& group) {
 // One pixel of one sample finds what one of four samples does, where there are no edges, and makes every pipeline for it.
 const std::vector<HardFrame> at_four_samples{hard_frames[1], hard_frames[2]};
 constexpr std::size_t without_layers = 4;  // from here on
-INSTANTIATE_TEST_SUITE_P(FourSamples, HardFrames, testing::Values(HardGroup{at_four_samples, 3}), name_of);
+INSTANTIATE_TEST_SUITE_P(FourSamples, HardFrames, testing::Values(HardGroup{at_four_samples, 8}), name_of);
 INSTANTIATE_TEST_SUITE_P(Frames, HardFrames,
                          testing::Values(HardGroup{{std::begin(hard_frames) + without_layers, std::end(hard_frames)}}), name_of);
 INSTANTIATE_TEST_SUITE_P(Exhaustive, HardFrames,

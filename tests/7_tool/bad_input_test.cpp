@@ -63,20 +63,36 @@ std::string verb_test_name(const testing::TestParamInfo<FileVerb>& info) { retur
 
 INSTANTIATE_TEST_SUITE_P(Verbs, BadFile, testing::ValuesIn(file_verbs()), verb_test_name);
 
-class BadCapture : public testing::TestWithParam<FileVerb> {};
+// Every verb reads captures with the same code: one of them meets every lie and every cut, the others a part.
+class BadCapture : public testing::TestWithParam<FileVerb> {
+protected:
+    static bool meets_all() { return GetParam().name == "info"; }
+
+    static void expect_lies_refused(std::size_t first, std::size_t step) {
+        static const std::vector<ForgedCapture> forged = forged_captures();
+        for (std::size_t i = first; i < forged.size(); i += step) {
+            SCOPED_TRACE(forged[i].name);
+            write_file(folder() / GetParam().file(), forged[i].bytes);
+            expect_refused(GetParam(), forged[i].id);
+        }
+    }
+};
 
 TEST_P(BadCapture, ThatLiesBehindRightChecksumsIsRefusedWithSectionAndOffset) {
-    for (const ForgedCapture& forged : forged_captures()) {
-        SCOPED_TRACE(forged.name);
-        write_file(folder() / GetParam().file(), forged.bytes);
-        expect_refused(GetParam(), forged.id);
-    }
+    const std::vector<FileVerb> verbs = capture_verbs();
+    const auto place = std::ranges::find(verbs, GetParam().name, &FileVerb::name) - verbs.begin();
+    if (meets_all()) expect_lies_refused(0, 1);
+    else expect_lies_refused(static_cast<std::size_t>(place), verbs.size());
 }
+
+TEST_P(BadCapture, ExhaustiveThatLiesBehindRightChecksumsIsRefusedWithSectionAndOffset) { expect_lies_refused(0, 1); }
 
 // The first of the frames, which are of 16 x 9 pixels, lies in the second quarter.
 TEST_P(BadCapture, ThatIsCutIsRefusedOrReadUpToTheCutWhenAllowed) {
     const Bytes good = sound_capture();
-    for (const std::size_t size : {good.size() - 1, good.size() * 3 / 4, good.size() / 4, std::size_t{16}, std::size_t{3}}) {
+    std::vector<std::size_t> sizes = {good.size() * 3 / 4, good.size() / 4};
+    if (meets_all()) sizes.insert(sizes.end(), {good.size() - 1, 16, 3});
+    for (const std::size_t size : sizes) {
         SCOPED_TRACE(size);
         write_file(folder() / GetParam().file(), std::span(good).first(size));
         expect_refused(GetParam(), "");
@@ -89,19 +105,13 @@ TEST_P(BadCapture, ThatIsCutIsRefusedOrReadUpToTheCutWhenAllowed) {
     }
 }
 
-TEST_P(BadCapture, WithASectionOfTheFutureIsReadAndTheSectionNamed) {
+TEST_P(BadCapture, OfTheFutureWhoseTextIsNoUtf8OrCommandsATerminalIsReadAndShownWithoutThat) {
     write_file(folder() / GetParam().file(), capture_with_unknown_section());
-    const Finished read = strata(GetParam().command());
-    EXPECT_EQ(read.code, 0) << read.err;
-    EXPECT_THAT(read.err, testing::AllOf(HasSubstr("(unknown)"), HasSubstr("type 77")));
-}
-
-TEST_P(BadCapture, WhoseTextIsNoUtf8OrCommandsATerminalIsShownWithoutThat) {
-    write_file(folder() / GetParam().file(), capture_with_hostile_text());
     for (const std::string more : {"", " --json"}) {
         const Finished read = strata(GetParam().command() + more);
         if (read.code == 2 && !more.empty()) continue;  // a verb without --json
         EXPECT_EQ(read.code, 0) << read.err;
+        EXPECT_THAT(read.err, testing::AllOf(HasSubstr("(unknown)"), HasSubstr("type 77")));
         EXPECT_EQ((read.out + read.err).find_first_of("\x1b\x07\x9b\xff"), std::string::npos) << read.out << read.err;
     }
 }

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <ostream>
 #include <string>
 
 #include <fmt/format.h>
@@ -16,11 +15,10 @@ namespace strata {
 namespace {
 
 struct VerbLine {
-    const char *name, *line;
+    const char* name;
+    const char* line;
     int code = 0;  ///< with enough memory
 };
-
-void PrintTo(const VerbLine& verb, std::ostream* out) { *out << verb.name; }
 
 constexpr VerbLine verbs[] = {
     {"list", "list --scenarios"},
@@ -35,32 +33,51 @@ constexpr VerbLine verbs[] = {
 // Static objects are made before main(), in 54 allocations: a program of C++ ends there with 134.
 constexpr long before_main = 100, never = 0, for_good = 1'000'000'000;
 
-class FailingAllocations : public testing::TestWithParam<VerbLine> {
-protected:
-    /// Makes the files that the verbs read.
-    static void prepare() {
-        ASSERT_EQ(strata("record three_panes -o a.strata --size 32x18").code, 0);
-        ASSERT_EQ(strata("replay a.strata -o first").code, 0);
-        ASSERT_EQ(strata("replay a.strata --use transparency/alpha_blend -o second").code, 0);
+/// Puts the files there that the verbs read.
+void prepare() {
+    ASSERT_EQ(strata("record three_panes -o a.strata --size 32x18").code, 0);
+    ASSERT_EQ(strata("replay a.strata -o first").code, 0);
+    ASSERT_EQ(strata("replay a.strata --use transparency/alpha_blend -o second").code, 0);
+}
+
+/// A verb, what it writes and how often it allocates.
+class Starved {
+public:
+    /// Runs the verb with enough memory.
+    explicit Starved(const VerbLine& verb) : verb_(verb) {
+        const Finished ran = run(never, never);
+        whole_ = made();
+        EXPECT_EQ(ran.code, verb.code) << ran.err;
+        std::ifstream(folder() / "count.txt") >> allocations_;
+        EXPECT_GT(allocations_, before_main);
     }
 
-    static Finished run(long from, long to) {
+    long allocations() const { return allocations_; }
+
+    /// This allocation fails; then it and all after it.
+    void fail_and_check(long number) const {
+        fail_and_check(number, number);
+        fail_and_check(number, for_good);
+    }
+
+private:
+    void fail_and_check(long from, long to) const {
+        SCOPED_TRACE(fmt::format("{}: allocations {} to {} fail", verb_.name, from, to));
+        const Finished ran = run(from, to);
+        EXPECT_THAT(ran.code, testing::AnyOf(verb_.code, static_cast<int>(Fault::device_lacks))) << ran.err;
+        if (ran.code == verb_.code) return;
+        EXPECT_THAT(ran.err, testing::AnyOf(testing::HasSubstr("memory"), testing::HasSubstr("thread")));
+        EXPECT_THAT(made(), testing::AnyOf("", whole_)) << "a part is left";
+        for (const auto& entry : std::filesystem::directory_iterator(folder()))
+            EXPECT_NE(entry.path().extension(), ".tmp") << entry.path() << " is left";
+    }
+
+    Finished run(long from, long to) const {
         for (const char* made : {"made.glb", "made.json"}) std::filesystem::remove(folder() / made);
         return strata_after(fmt::format("export LD_PRELOAD={}/libfailing_allocations.so FAIL_ALLOCATIONS='{} {}' "
                                         "COUNTED_ALLOCATIONS=count.txt",
                                         STRATA_BINARY_DIR, from, to),
-                            GetParam().line);
-    }
-
-    /// With enough memory.
-    long count() {
-        const Finished ran = run(never, never);
-        whole_ = made();
-        EXPECT_EQ(ran.code, GetParam().code) << ran.err;
-        long allocations = 0;
-        std::ifstream(folder() / "count.txt") >> allocations;
-        EXPECT_GT(allocations, before_main);
-        return allocations;
+                            verb_.line);
     }
 
     /// The file that the verb wrote.
@@ -70,43 +87,29 @@ protected:
         return "";
     }
 
-    void fail_and_check(long from, long to) {
-        SCOPED_TRACE(fmt::format("{}: allocations {} to {} fail", GetParam().name, from, to));
-        const Finished ran = run(from, to);
-        EXPECT_THAT(ran.code, testing::AnyOf(GetParam().code, static_cast<int>(Fault::device_lacks))) << ran.err;
-        if (ran.code == GetParam().code) return;
-        EXPECT_THAT(ran.err, testing::AnyOf(testing::HasSubstr("memory"), testing::HasSubstr("thread")));
-        EXPECT_THAT(made(), testing::AnyOf("", whole_)) << "a part is left";
-        for (const auto& entry : std::filesystem::directory_iterator(folder()))
-            EXPECT_NE(entry.path().extension(), ".tmp") << entry.path() << " is left";
-    }
-
-private:
+    VerbLine verb_;
     std::string whole_;
+    long allocations_ = 0;
 };
 
-TEST_P(FailingAllocations, EndInWordsOrAreNotNoticed) {
+TEST(FailingAllocations, EndEveryVerbInWordsOrAreNotNoticed) {
     prepare();
-    const long all = count();
-    for (const long number : {before_main, all / 2, all - 1}) {
-        fail_and_check(number, number);
-        fail_and_check(number, for_good);
+    for (const VerbLine& verb : verbs) {
+        const Starved starved(verb);
+        for (const long number : {before_main, starved.allocations() / 2, starved.allocations() - 1})
+            starved.fail_and_check(number);
     }
 }
 
-TEST_P(FailingAllocations, ExhaustiveEndInWordsOrAreNotNoticed) {
+TEST(ExhaustiveFailingAllocations, EndEveryVerbInWordsOrAreNotNoticed) {
     prepare();
     constexpr long samples = 400;
-    const long all = count();
-    for (long i = 0; i < samples; ++i) {
-        const long number = before_main + i * (all - before_main) / samples;
-        fail_and_check(number, number);
-        fail_and_check(number, for_good);
+    for (const VerbLine& verb : verbs) {
+        const Starved starved(verb);
+        for (long i = 0; i < samples; ++i)
+            starved.fail_and_check(before_main + i * (starved.allocations() - before_main) / samples);
     }
 }
-
-INSTANTIATE_TEST_SUITE_P(Verbs, FailingAllocations, testing::ValuesIn(verbs),
-                         [](const auto& each) { return std::string(each.param.name); });
 
 }  // namespace
 }  // namespace strata

@@ -178,14 +178,18 @@ Bytes sound_capture() {
     return small_capture("three panes", [](Frame&) {});
 }
 
-Bytes capture_with_hostile_text() {
-    return small_capture("\x1b]0;mine\x07 \xff", [](Frame& frame) {
-        for (Mesh& mesh : frame.meshes) mesh.name = "\x1b[31mmesh\xc3";
-        for (Material& material : frame.materials)
-            material.name =
-                "material\x9b"
-                "2J\xe2\x82";
-    });
+Bytes capture_with_unknown_section() {
+    const TemporaryFile file("unknown.strata");
+    write_file(file.path(), small_capture("\x1b]0;mine\x07 \xff", [](Frame& frame) {
+                   for (Mesh& mesh : frame.meshes) mesh.name = "\x1b[31mmesh\xc3";
+                   for (Material& material : frame.materials)
+                       material.name =
+                           "material\x9b"
+                           "2J\xe2\x82";
+               }));
+    auto writer = ContainerWriter::extend(file.path());
+    EXPECT_TRUE(writer->add({SectionType{77}, 3, bytes_of("of the future"), 13}) && writer->finish());
+    return read_file(file.path());
 }
 
 Bytes capture_recorded_with(const std::vector<StageChoice>& choices) {
@@ -199,14 +203,6 @@ Bytes vast_capture() {
         texture.mips = 1;
         texture.texels.assign(std::size_t{4} * texture.width * texture.height, std::byte{0});
     });
-}
-
-Bytes capture_with_unknown_section() {
-    const TemporaryFile file("unknown.strata");
-    write_file(file.path(), sound_capture());
-    auto writer = ContainerWriter::extend(file.path());
-    EXPECT_TRUE(writer->add({SectionType{77}, 3, bytes_of("of the future"), 13}) && writer->finish());
-    return read_file(file.path());
 }
 
 }  // namespace strata

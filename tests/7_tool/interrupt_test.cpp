@@ -54,20 +54,20 @@ TEST_P(Interrupted, AtAnyMomentLeavesWholeFilesAndNoTemporary) {
     const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - began;
     std::mt19937 random(3);
     int interrupted = 0;
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < 6; ++i) {
         const pid_t process = start_strata(GetParam());
         std::this_thread::sleep_for(std::uniform_real_distribution<>(0, 1)(random) * whole);
-        kill(process, i % 3 == 2 ? SIGTERM : SIGINT);
+        kill(process, i % 2 == 1 ? SIGTERM : SIGINT);
         const int code = code_of(process);
-        EXPECT_THAT(code, testing::AnyOf(0, 130, i % 3 == 2 ? 143 : 130));  // a report that prints what there is ends with 130
+        EXPECT_THAT(code, testing::AnyOf(0, 130, i % 2 == 1 ? 143 : 130));  // a report that prints what there is ends with 130
         interrupted += code != 0;
         expect_only_whole_files(GetParam());
     }
-    EXPECT_GT(interrupted, 3);
+    EXPECT_GT(interrupted, 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Verbs, Interrupted,
-                         testing::Values("record three_panes --frames 300 -o made.strata", "replay sound.strata -o out",
+                         testing::Values("record three_panes --frames 150 -o made.strata", "replay sound.strata -o out",
                                          "report sound.strata --repeats 1 --sweep pool=2 --json -o report.json"));
 
 /// The first signal asks for what there is.

@@ -10,7 +10,7 @@ namespace strata::ui {
 namespace {
 
 // A pixel that somebody asks for by number is looked at closely.
-constexpr double least_zoom = 8;
+constexpr double readable_zoom = 8;
 
 }  // namespace
 
@@ -68,7 +68,7 @@ void GoToPixel::ask(Model& model, Widgets& widgets, glm::uvec2 extent) {
         widgets.text("refused", fmt::format("two whole numbers below {} and {}", extent.x, extent.y), &palette().warning);
     if (entered && is_there) {
         model.pin = *pixel;
-        model.view = {std::max(model.view.zoom, least_zoom), pixel->x + .5, pixel->y + .5};
+        model.view = {std::max(model.view.zoom, readable_zoom), pixel->x + .5, pixel->y + .5};
         is_open_ = false;
     }
 }

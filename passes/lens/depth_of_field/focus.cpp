@@ -12,7 +12,7 @@
 namespace strata::lens {
 namespace {
 
-constexpr std::uint32_t tap_counts[] = {16, 64, 128, 256};  // focus_taps_* of lens.shared.h
+constexpr std::uint32_t taps_of_choice[] = {16, 64, 128, 256};  // focus_taps_* of lens.shared.h
 constexpr const char* spread_name = "blur that reaches tiles";
 
 BlurPush push_of(const FrameImages& frame, const LensParams& params) {
@@ -65,7 +65,7 @@ void blur_by_depth(Graph& graph, FrameImages& frame, const LensParams& params) {
         read_samples(graph.compute("lens/depth_of_field/gather.comp"), frame)
             .samples("spread", spread)
             .stores("blurred", blurred)
-            .fixes("taps", tap_counts[params.focus_taps])
+            .fixes("taps", taps_of_choice[params.focus_taps])
             .push(push)
             .over(threads);
     } else {
@@ -96,7 +96,7 @@ Image show_taps(Graph& graph, const FrameImages& frame, const LensParams& params
     ComputeStep count = read_samples(
         graph.compute(gathers ? "lens/depth_of_field/show_taps.comp" : "lens/depth_of_field/show_xray_taps.comp"), frame);
     count.stores("shown", picture).push(push_of(frame, params)).over(frame.extent);
-    if (gathers) count.samples("spread", graph.find_image(spread_name)).fixes("taps", tap_counts[params.focus_taps]);
+    if (gathers) count.samples("spread", graph.find_image(spread_name)).fixes("taps", taps_of_choice[params.focus_taps]);
     return picture;
 }
 

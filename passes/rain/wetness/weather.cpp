@@ -7,7 +7,7 @@
 namespace strata::rain {
 namespace {
 
-std::uint32_t wrapped(double whole) {
+std::uint32_t low_bits(double whole) {
     const double rest = std::fmod(whole, 0x1p32);
     return static_cast<std::uint32_t>(rest < 0 ? rest + 0x1p32 : rest);
 }
@@ -16,7 +16,7 @@ std::uint32_t wrapped(double whole) {
 
 Turns turns_of(double time, double rate) {
     const double turns = time * rate, whole = std::floor(turns);
-    return {wrapped(whole), static_cast<float>(turns - whole)};
+    return {low_bits(whole), static_cast<float>(turns - whole)};
 }
 
 RainRecord record_of(const RainMap& map, const WetnessParams& params) {
@@ -35,7 +35,7 @@ WetnessPush weather_push(const Frame& frame, const RainMap& map, const WetnessPa
     RainRecord record = record_of(map, params);
     record.towards_rain = glm::vec3(-(frame.view.to_view * glm::dvec3(frame.rain.direction)));
     return {.map = record,
-            .cubes = {wrapped(whole.x), wrapped(whole.y), wrapped(whole.z)},
+            .cubes = {low_bits(whole.x), low_bits(whole.y), low_bits(whole.z)},
             .place = glm::vec3(frame.view.origin - cube * whole),
             .ring_turns = rings.whole,
             .ring_phase = rings.rest,

@@ -18,7 +18,7 @@
 namespace strata::transparency {
 namespace {
 
-constexpr std::uint32_t fragments = 20000;
+constexpr std::uint32_t fragment_count = 20000;
 
 struct Rounded {
     glm::uvec2 texel{0};
@@ -31,24 +31,24 @@ Rounded rounded_at(std::uint32_t i) { return {.texel = {i % 160 * 2, i / 160 * 2
 TEST(VoxelRounding, IsUniform) {
     for (const double share : {.01, .1, .25, .5, .75, .99}) {
         std::uint32_t below = 0;
-        for (std::uint32_t i = 0; i < fragments; ++i) {
+        for (std::uint32_t i = 0; i < fragment_count; ++i) {
             const double number = rounded_at(i).number();
             ASSERT_TRUE(number >= 0 && number < 1) << number;
             below += number < share;
         }
-        EXPECT_GT(binomial_tail(below, fragments, share), hardly_ever) << share << ": " << below;
+        EXPECT_GT(binomial_tail(below, fragment_count, share), hardly_ever) << share << ": " << below;
     }
 }
 
 TEST(VoxelRounding, RoundsUpAsOftenAsTheFractionSays) {
     for (const double codes : {.05, .4, 2.5, 31.75}) {
         std::uint32_t up = 0;
-        for (std::uint32_t i = 0; i < fragments; ++i) {
+        for (std::uint32_t i = 0; i < fragment_count; ++i) {
             const double rounded = std::floor(codes + rounded_at(i).number());
             ASSERT_TRUE(rounded == std::floor(codes) || rounded == std::floor(codes) + 1);
             up += rounded > codes;
         }
-        EXPECT_GT(binomial_tail(up, fragments, codes - std::floor(codes)), hardly_ever) << codes << ": " << up;
+        EXPECT_GT(binomial_tail(up, fragment_count, codes - std::floor(codes)), hardly_ever) << codes << ": " << up;
     }
 }
 
@@ -56,9 +56,9 @@ TEST(VoxelRounding, OfTwoFragmentsHasNothingToDoWithEachOther) {
     constexpr double share = .5, other_share = .25;
     const auto both_below = [&](Rounded (*neighbor)(Rounded)) {
         std::uint32_t both = 0;
-        for (std::uint32_t i = 0; i < fragments; ++i)
+        for (std::uint32_t i = 0; i < fragment_count; ++i)
             both += rounded_at(i).number() < share && neighbor(rounded_at(i)).number() < other_share;
-        return binomial_tail(both, fragments, share * other_share);
+        return binomial_tail(both, fragment_count, share * other_share);
     };
     EXPECT_GT(both_below([](Rounded r) { return ++r.texel.x, r; }), hardly_ever);
     EXPECT_GT(both_below([](Rounded r) { return ++r.texel.y, r; }), hardly_ever);

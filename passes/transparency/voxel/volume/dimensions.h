@@ -8,8 +8,9 @@
 
 namespace strata {
 
-class Features;  // capture_format/frame_features.h
-class Settings;  // passes/settings.h
+class Features;    // capture_format/frame_features.h
+class SceneFacts;  // passes/scene/scene_facts.h
+class Settings;    // passes/settings.h
 
 }  // namespace strata
 
