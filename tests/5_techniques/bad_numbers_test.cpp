@@ -92,16 +92,18 @@ std::string with_includes(const std::filesystem::path& path) {
     return text;
 }
 
-/// The built-in shaders; those in the folders of the techniques take every number for a finite one.
+/// The built-in shaders; those that the techniques use of their stage take every number for a finite one.
 ShaderLibrary without_sanitizing(const std::vector<const Technique*>& techniques) {
     constexpr std::string_view check = "return (floatBitsToUint(x) & 0x7fffffffu) < 0x7f800000u;", pass = "return true;";
-    const auto is_of_one = [&](std::string_view shader) {
-        return std::ranges::any_of(techniques,
-                                   [&](const Technique* t) { return shader.starts_with(std::string(t->name) + '/'); });
+    const auto is_of_another = [&](std::string_view shader) {
+        return std::ranges::any_of(techniques_of(Stage::transparency), [&](const Technique* t) {
+            return shader.starts_with(std::string(t->name) + '/') && !std::ranges::count(techniques, t);
+        });
     };
     ShaderLibrary library;
     for (const std::string& name : ShaderLibrary::built_in().names()) {
-        std::string source = is_of_one(name) ? with_includes(STRATA_SOURCE_DIR "/passes/" + name) : "";
+        const bool is_used = name.starts_with("transparency/") && !is_of_another(name);
+        std::string source = is_used ? with_includes(STRATA_SOURCE_DIR "/passes/" + name) : "";
         if (const std::size_t at = source.find(check); at != std::string::npos)
             library.add(glsl(name, source.replace(at, check.size(), pass)));
         else library.add(*ShaderLibrary::built_in().find(name));
