@@ -26,7 +26,9 @@ Result<void> ExpectationWriter::Extended::begin() {
     auto begun = WholeFile::begin(capture);
     if (!begun) return begun.error();
     std::error_code problem;
-    std::filesystem::copy_file(capture, begun->temporary(), std::filesystem::copy_options::overwrite_existing, problem);
+    begun->opened_by([&](const std::filesystem::path& path) {
+        return std::filesystem::copy_file(capture, path, std::filesystem::copy_options::overwrite_existing, problem);
+    });
     if (problem)
         return fail(Fault::usage, "file.cannot_copy", "cannot copy {file}: {reason}", capture.string(), problem.message());
     auto extended = ContainerWriter::extend(begun->temporary());

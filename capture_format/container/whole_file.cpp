@@ -143,6 +143,8 @@ const std::filesystem::path& WholeFile::temporary() const {
     return pending_->temporary;
 }
 
+std::unique_lock<std::mutex> WholeFile::hold_signals() { return std::unique_lock(lock); }
+
 StopAtSignal::StopAtSignal() {
     const std::scoped_lock held(lock);
     assert(!stop_at_signal && "one at a time");

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <stop_token>
 #include <string_view>
@@ -30,6 +31,13 @@ public:
 
     /// Where to write. The file exists: open it without creating it, so that nothing is left when a signal just removed it.
     const std::filesystem::path& temporary() const;
+    /// What `open` gives for the path of the temporary, for a writer that would create it: a signal that ends the program waits
+    /// until it is open.
+    template <typename Opener>
+    auto opened_by(const Opener& open) const {
+        const auto held = hold_signals();
+        return open(temporary());
+    }
     /// Puts what was written in the target's place. Call it when every writer is done; once.
     Result<void> commit();
 
@@ -37,6 +45,7 @@ private:
     friend Result<void> leave_nothing_half_written_when_stopped();
     friend void end_program(int code);
     struct Pending;
+    static std::unique_lock<std::mutex> hold_signals();
     explicit WholeFile(std::unique_ptr<Pending>);
     std::unique_ptr<Pending> pending_;
 };

@@ -82,7 +82,9 @@ struct CaptureBeingWritten {
 Result<CaptureBeingWritten> begin_capture(const ImportArguments& options, const RecorderOptions& recording) {
     auto file = WholeFile::begin(output_of(options));
     if (!file) return file.error();
-    auto recorder = Recorder::create(file->temporary(), "imported from " + options.scene.filename().string(), recording);
+    auto recorder = file->opened_by([&](const std::filesystem::path& path) {
+        return Recorder::create(path, "imported from " + options.scene.filename().string(), recording);
+    });
     if (!recorder) return recorder.error();
     return CaptureBeingWritten{*std::move(file), *std::move(recorder)};
 }

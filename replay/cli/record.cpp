@@ -64,8 +64,9 @@ Result<void> record(const RecordArguments& options) {
         options.output.empty() ? std::filesystem::path(options.scenario + ".strata") : options.output;
     auto file = WholeFile::begin(output);
     if (!file) return file.error();
-    auto recorder =
-        Recorder::create(file->temporary(), fmt::format("scenario {} seed {}", options.scenario, wanted.seed), options.recorder);
+    auto recorder = file->opened_by([&](const std::filesystem::path& path) {
+        return Recorder::create(path, fmt::format("scenario {} seed {}", options.scenario, wanted.seed), options.recorder);
+    });
     if (!recorder) return recorder.error();
     if (*thumbnail)
         if (const auto done = recorder->thumbnail(**thumbnail); !done) return done;
