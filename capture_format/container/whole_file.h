@@ -31,8 +31,8 @@ public:
 
     /// Where to write. The file exists: open it without creating it, so that nothing is left when a signal just removed it.
     const std::filesystem::path& temporary() const;
-    /// What `open` gives for the path of the temporary, for a writer that would create it: a signal that ends the program waits
-    /// until it is open.
+    /// Calls `open` with the path of the temporary and returns its result, for a writer that would create the file: a signal
+    /// that ends the program waits until it is open.
     template <typename Opener>
     auto opened_by(const Opener& open) const {
         const auto held = hold_signals();

@@ -216,9 +216,9 @@ Technique lpv() {
              param<&LpvParams::self_light>({.name = "self_light",
                                             .high = 2,
                                             .fallback = self_facing,
-                                            .help = "light that returns to the surface that reflected it; kept: stays; "
-                                                    "uninjected: cells do not show what was injected "
-                                                    "into them; by_facing: left out where normals face alike, twice the memory",
+                                            .help = "how much of its own light a surface gets back; kept: all; "
+                                                    "uninjected: none that was injected into the cell it reads; "
+                                                    "by_facing: none from surfaces that face as it does, twice the memory",
                                             .choices = self_lights}),
              param<&LpvParams::reading>(
                  {.name = "reading",
@@ -229,8 +229,8 @@ Technique lpv() {
                  {.name = "lobes",
                   .high = 1,
                   .fallback = lobes_flow,
-                  .help = "direction in which a cell's face sends on the light that it takes; face: along its normal, as "
-                          "published; flow: away from the cell it came from, reaches farther",
+                  .help = "direction of the light that a cell's face hands on; face: the face's normal, as published; "
+                          "flow: away from the cell it came from, reaches farther",
                   .choices = lobe_rules})},
         .variants = {"iterations=8",
                      "iterations=32",

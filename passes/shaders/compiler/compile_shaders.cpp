@@ -30,7 +30,7 @@ constexpr auto messages = static_cast<EShMessages>(EShMsgDefault | EShMsgSpvRule
 bool read(const fs::path& path, std::string& text) {
     std::ifstream file(path, std::ios::binary);
     text.assign(std::istreambuf_iterator<char>(file), {});
-    return file.good() || file.eof();
+    return file.good();
 }
 
 /// Finds what shaders include, in the folders alone, and keeps the names of all that it read.
@@ -38,18 +38,8 @@ class Includes : public glslang::TShader::Includer {
 public:
     explicit Includes(std::vector<fs::path> folders) : folders_(std::move(folders)) {}
 
-    IncludeResult* includeLocal(const char* name, const char*, std::size_t) override { return find(name); }
-    IncludeResult* includeSystem(const char* name, const char*, std::size_t) override { return find(name); }
-    void releaseInclude(IncludeResult* result) override {
-        if (!result) return;
-        delete static_cast<std::string*>(result->userData);
-        delete result;
-    }
-
-    const std::set<std::string>& read_files() const { return read_files_; }
-
-private:
-    IncludeResult* find(const char* name) {
+    /// Asked for includes in quotes, too.
+    IncludeResult* includeSystem(const char* name, const char*, std::size_t) override {
         for (const fs::path& folder : folders_) {
             auto text = std::make_unique<std::string>();
             const fs::path path = folder / name;
@@ -60,7 +50,15 @@ private:
         }
         return nullptr;
     }
+    void releaseInclude(IncludeResult* result) override {
+        if (!result) return;
+        delete static_cast<std::string*>(result->userData);
+        delete result;
+    }
 
+    const std::set<std::string>& read_files() const { return read_files_; }
+
+private:
     std::vector<fs::path> folders_;
     std::set<std::string> read_files_;
 };
