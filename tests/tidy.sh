@@ -1,21 +1,22 @@
 #!/usr/bin/env bash
 # Runs clang-tidy (.clang-tidy) on the sources that differ from the last landed commit, and on a source for each header that does.
 #   tests/tidy.sh SECONDS    starts no file later than that: the order depends on the commit, so that every commit checks another part
-# What differs is counted from the merge base with the branch's upstream, else with origin/main. Where neither exists, and on the landed
-# commit itself, every file may be checked. Exit code 1: clang-tidy reports something in a file that differs.
+# What differs is counted from the merge base with the branch's upstream, else with origin/main; on the landed commit itself, and where
+# there is no upstream, from the commit before. Exit code 1: clang-tidy reports something in a file that differs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 seconds=$1 build=build-tidy
 head=$(git rev-parse HEAD)
-landed=$(git merge-base HEAD '@{upstream}' 2>/dev/null || git merge-base HEAD origin/main 2>/dev/null || true)
-if [ -n "$landed" ] && { [ "$landed" != "$head" ] || ! git diff --quiet HEAD; }; then
+landed=$(git merge-base HEAD '@{upstream}' 2>/dev/null || git merge-base HEAD origin/main 2>/dev/null || echo "$head")
+if [ "$landed" = "$head" ] && git diff --quiet HEAD; then landed=$(git rev-parse -q --verify HEAD~1 || true); fi
+if [ -n "$landed" ]; then
     mapfile -t differing < <(git diff --name-only --diff-filter=d "$landed" -- '*.h' '*.cpp')
     against="differ from ${landed:0:12}"
 else
     landed=
     mapfile -t differing < <(git ls-files '*.cpp')
-    against="may be checked, because no landed commit lies before this one"
+    against="may be checked, because no commit lies before this one"
 fi
 
 # A header is checked through the source of its name, else through the first that includes it.
