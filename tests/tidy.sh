@@ -1,20 +1,19 @@
 #!/usr/bin/env bash
 # Runs clang-tidy (.clang-tidy) on the sources that differ from the last landed commit, and on a source for each header that does.
 #   tests/tidy.sh SECONDS    starts no file later than that: the order depends on the commit, so that every commit checks another part
-# What differs is counted from the merge base with the branch's upstream, else with origin/main; on the landed commit itself, and where
-# there is no upstream, from the commit before. Exit code 1: clang-tidy reports something in a file that differs.
+# The landed commit is the merge base with the branch's upstream, else with origin/main. Where that is HEAD, or there is neither: what is
+# not committed is checked, else what HEAD changed. Exit code 1: clang-tidy reports something in a file that differs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 seconds=$1 build=build-tidy
 head=$(git rev-parse HEAD)
-landed=$(git merge-base HEAD '@{upstream}' 2>/dev/null || git merge-base HEAD origin/main 2>/dev/null || echo "$head")
-if [ "$landed" = "$head" ] && git diff --quiet HEAD; then landed=$(git rev-parse -q --verify HEAD~1 || true); fi
-if [ -n "$landed" ]; then
-    mapfile -t differing < <(git diff --name-only --diff-filter=d "$landed" -- '*.h' '*.cpp')
-    against="differ from ${landed:0:12}"
+base=$(git merge-base HEAD '@{upstream}' 2>/dev/null || git merge-base HEAD origin/main 2>/dev/null || echo "$head")
+if [ "$base" = "$head" ] && git diff --quiet HEAD; then base=$(git rev-parse -q --verify HEAD~1 || true); fi
+if [ -n "$base" ]; then
+    mapfile -t differing < <(git diff --name-only --diff-filter=d "$base" -- '*.h' '*.cpp')
+    against="differ from ${base:0:12}"
 else
-    landed=
     mapfile -t differing < <(git ls-files '*.cpp')
     against="may be checked, because no commit lies before this one"
 fi
@@ -41,7 +40,7 @@ ninja -C $build generated/capture_format/schema/capture_generated.h strata_ui_sh
 
 # Findings are reported in files that differ alone; an empty filter lets all of the project through.
 filter=
-[ -z "$landed" ] || filter=$(printf ',{"name":"%s"}' "${differing[@]}")
+[ -z "$base" ] || filter=$(printf ',{"name":"%s"}' "${differing[@]}")
 export deadline=$(($(date +%s) + seconds)) filter="${filter:+[${filter#,}]}" build
 log=$(mktemp -d)
 trap 'rm -rf "$log"' EXIT

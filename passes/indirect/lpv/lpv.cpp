@@ -216,9 +216,10 @@ Technique lpv() {
              param<&LpvParams::self_light>({.name = "self_light",
                                             .high = 2,
                                             .fallback = self_facing,
-                                            .help = "how much of its own light a surface gets back; kept: all; "
-                                                    "uninjected: none that was injected into the cell it reads; "
-                                                    "by_facing: none from surfaces that face as it does, twice the memory",
+                                            .help =
+                                                "reflected light that the volume returns to the surface it came from; kept: all; "
+                                                "uninjected: without what was injected into the cell that is read; "
+                                                "by_facing: without surfaces that face alike, twice the memory",
                                             .choices = self_lights}),
              param<&LpvParams::reading>(
                  {.name = "reading",
@@ -229,8 +230,8 @@ Technique lpv() {
                  {.name = "lobes",
                   .high = 1,
                   .fallback = lobes_flow,
-                  .help = "direction of the light that a cell's face hands on; face: the face's normal, as published; "
-                          "flow: away from the cell it came from, reaches farther",
+                  .help = "axis of the lobe into which the flux through a cell's face is projected; face: the face's normal, as "
+                          "published; flow: away from the cell the flux comes from, reaches farther",
                   .choices = lobe_rules})},
         .variants = {"iterations=8",
                      "iterations=32",
