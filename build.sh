@@ -20,7 +20,7 @@ packages=(
     libopenexr-dev libdeflate-dev nlohmann-json3-dev libcli11-dev
     libimgui-dev libglfw3-dev fonts-dejavu-core
 )
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format git xvfb xdotool x11-apps xclip libx11-dev chromium-common)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format git xvfb xdotool x11-apps xclip libx11-dev chromium-common libjemalloc2)
 clang_packages=(clang-14 libclang-rt-14-dev llvm-14)
 tidy_packages=(clang-16 clang-tidy-16)
 
@@ -112,7 +112,7 @@ case "${1:-build}" in
         ;;
     format)
         install_missing clang-format git
-        git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
+        git ls-files '*.h' '*.cpp' | xargs -P "$(nproc)" -n 100 clang-format --dry-run -Werror
         ;;
     tidy)
         install_missing "${packages[@]}" "${test_packages[@]}" "${tidy_packages[@]}"

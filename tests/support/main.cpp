@@ -1,6 +1,7 @@
 // Runs a program's tests and lists those that took more than 5 s of CPU: each of them is a decision, and belongs to the
 // exhaustive suite unless nothing cheaper notices what it notices.
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -57,6 +58,9 @@ class CpuSeconds : public testing::EmptyTestEventListener {
 }  // namespace strata
 
 int main(int count, char** arguments) {
+    // What a shell's & and nohup let programs ignore; tests send these signals, also to programs that inherit what this one
+    // ignores.
+    for (const int signal : {SIGINT, SIGQUIT, SIGHUP}) std::signal(signal, SIG_DFL);
     testing::InitGoogleMock(&count, arguments);
     testing::UnitTest::GetInstance()->listeners().Append(new strata::CpuSeconds);  // GoogleTest deletes it
     return RUN_ALL_TESTS();
