@@ -4,8 +4,11 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include "replay/images/host_image.h"
@@ -69,6 +72,32 @@ TEST(LightVolumeSelfLight, OfASettingIsAsMuchAsIsDocumented) {
           Row{{"self_light=uninjected", "lobes=face", "iterations=64"}, .719},
           Row{{"self_light=kept", "lobes=face", "reading=1.5", "iterations=64"}, .742}, Row{{"iterations=64"}, 0}})
         EXPECT_NEAR(self_light(*session, row.sets), row.share, .005) << testing::PrintToString(row.sets);
+}
+
+// The table of the README: on the floor and, against the truth, in a box that is lit by its own walls.
+TEST(LightVolumeSelfLight, ExhaustiveIsLeastByDefaultAndNoSettingIsAFifthBetterInABox) {
+    Frame box = scenario_frames("cornell_box").front();
+    box.view.width = box.view.height = 64;
+    const auto session = session_of({sunlit_floor(), box});
+    const auto row = [&](const std::vector<std::string>& sets) {
+        const double floor = self_light(*session, sets);
+        const auto box_errors = must(session->judge(indirect_of(1, sets), Stage::indirect, Against::truth)).technique_errors;
+        const double error = std::ranges::find(box_errors, "relative rmse", &Metric::name)->value;
+        fmt::print("{:<70} floor {:.3f}  box {:.3f}\n", fmt::join(sets, " "), floor, error);
+        return std::pair(floor, error);
+    };
+    for (const char* iterations : {"iterations=16", "iterations=36", "iterations=64"}) {
+        const auto [floor, error] = row({iterations});
+        EXPECT_LT(floor, .01);
+        for (const char* lobes : {"lobes=face", "lobes=flow"})
+            for (const char* self_light : {"self_light=kept", "self_light=uninjected", "self_light=by_facing"})
+                for (const char* reading : {"reading=0.5", "reading=1.5"})
+                    for (const char* damping : {"damping=0", "damping=2"}) {
+                        const auto [other_floor, other_error] = row({iterations, lobes, self_light, reading, damping});
+                        EXPECT_GT(other_floor, floor - .005) << iterations << lobes << self_light << reading << damping;
+                        EXPECT_GT(other_error, .8 * error) << iterations << lobes << self_light << reading << damping;
+                    }
+    }
 }
 
 }  // namespace

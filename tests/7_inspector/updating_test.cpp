@@ -23,10 +23,13 @@ public:
     explicit HeldUp(Desk& desk) {
         job_ = desk.inspector->replayer().start<int>(
             [this](Session&, ui::Progress&) -> Result<int> {
+                began_ = true;
                 while (!done_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
                 return 0;
             },
             Yields::between_steps);
+        // A picture that is asked for before this began would be made before it.
+        while (!began_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     HeldUp(const HeldUp&) = delete;
     ~HeldUp() {
@@ -35,7 +38,7 @@ public:
     }
 
 private:
-    std::atomic<bool> done_ = false;
+    std::atomic<bool> began_ = false, done_ = false;
     JobOf<int> job_;
 };
 
