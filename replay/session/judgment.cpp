@@ -162,6 +162,11 @@ std::optional<double> keep_touched(const StageInfo& stage, const ImageSet& befor
     return strata::keep_touched(wanted->second, is_drawn_over ? &found->second : nullptr);
 }
 
+/// By more than what floats round when light goes from the unit that it is stored in to the frame's.
+bool differ(const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::any(glm::greaterThan(glm::abs(a - b), 0x1p-21 * glm::max(glm::abs(a), glm::abs(b))));
+}
+
 /// Of the texels of one image; 0 where there is none.
 double undecided_share(const ImageSet& truth, std::string_view image) {
     const auto found = truth.find(image);
@@ -220,7 +225,7 @@ std::optional<double> keep_touched(ReferenceImage& image, const ReferenceImage* 
     image.undecided.resize(image.texels.size());
     std::size_t touched = 0, kept = 0;
     for (std::size_t i = 0; i < image.texels.size(); ++i) {
-        const bool is_touched = glm::dvec3(image.texels[i]) != (before ? glm::dvec3(before->texels[i]) : glm::dvec3(0));
+        const bool is_touched = differ(glm::dvec3(image.texels[i]), before ? glm::dvec3(before->texels[i]) : glm::dvec3(0));
         touched += is_touched;
         image.undecided[i] = image.undecided[i] || !is_touched;
         kept += !image.undecided[i];

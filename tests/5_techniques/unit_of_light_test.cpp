@@ -74,12 +74,15 @@ public:
 
     /// Prints a row: the first figure in the recorded unit, and the largest change of any figure by unit.
     void expect_equal(std::string_view name) {
-        const std::vector<Metric> recorded = errors(name, 0);
+        const Accuracy first = judged(name, 0);
+        const std::vector<Metric> recorded = figures(first);
         if (recorded.empty()) return fmt::print("{} {}: cannot do the frame\n", scenario_, name);
         std::string row = fmt::format("{} {}: {} {:.4g}", scenario_, name, recorded[0].name, recorded[0].value);
         for (std::size_t i = 0; i < std::size(units); ++i) {
-            const std::vector<Metric> got = errors(name, i + 1);
+            const Accuracy accuracy = judged(name, i + 1);
+            const std::vector<Metric> got = figures(accuracy);
             ASSERT_EQ(got.size(), recorded.size()) << name;
+            EXPECT_EQ(accuracy.touched_share, first.touched_share) << name << " at " << units[i] << " times the light";
             double most = 0;
             for (std::size_t m = 0; m < got.size(); ++m) most = std::max(most, change(got[m], recorded[m], units[i], name));
             row += fmt::format("; at {:g} times {:.1e}", units[i], most);
@@ -88,10 +91,16 @@ public:
     }
 
 private:
-    std::vector<Metric> errors(std::string_view name, std::size_t frame) {
+    Accuracy judged(std::string_view name, std::size_t frame) {
         const Request request{.variant = {.frame = frame}, .choices = chosen({std::string(name)})};
-        const auto accuracy = session_->judge(request, must(find_technique(name))->stage, Against::truth);
-        return must(accuracy).technique_errors;
+        return must(session_->judge(request, must(find_technique(name))->stage, Against::truth));
+    }
+
+    /// Over the picture, and over what the stage changes of it.
+    static std::vector<Metric> figures(const Accuracy& accuracy) {
+        std::vector<Metric> all = accuracy.technique_errors;
+        all.insert(all.end(), accuracy.touched.begin(), accuracy.touched.end());
+        return all;
     }
 
     /// Radiance is in the frame's unit.

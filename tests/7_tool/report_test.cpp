@@ -257,6 +257,21 @@ TEST(PictureErrors, AreThoseThatLaterStagesLeave) {
     EXPECT_THAT(make_report(*session, wanted), FailsWith("report.stage_makes_picture", Field("stage", "combine")));
 }
 
+/// Exposure chooses the unit that light is stored in, and what is stored before and after a stage is rounded in that unit.
+TEST(Report, CountsWhatAStageTouchesInAnyUnitOfLight) {
+    std::vector<double> shares;
+    for (const float exposure : {1.f, .37f, 1.7e-6f}) {
+        std::vector<Frame> frames = scenario_frames("glass_and_smoke");
+        frames[0].view.width = 64, frames[0].view.height = 36;
+        frames[0].view.exposure *= exposure;
+        const auto session = session_of(std::move(frames));
+        shares.push_back(
+            must(make_report(*session, {.techniques = {"alpha_blend"}, .repeats = 1})).rows.at(0).accuracy.touched_share);
+    }
+    EXPECT_LT(shares[0], 1);
+    EXPECT_THAT(shares, testing::Each(shares[0]));
+}
+
 TEST(PictureErrors, OfPixelsThatRoundingLeavesOpenAreNotZeros) {
     const auto session = scenario_session("three_panes");
     ReferenceImage display(64, 36);
