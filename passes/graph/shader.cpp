@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <new>
 #include <set>
 
 #include <spirv_cross.hpp>
@@ -238,8 +239,8 @@ Shader reflected_shader(std::string name, std::span<const std::uint32_t> code) {
     return shader;
 }
 
-/// SPIRV-Cross (0.54) writes to what malloc returned without a look: 75 to 210 bytes for a word of code. Where that much is not
-/// to be had, this throws std::bad_alloc before the parser comes to it.
+/// Throws std::bad_alloc where memory does not suffice to parse the code, which takes 75 to 210 bytes a word: SPIRV-Cross (0.54)
+/// writes to what malloc returned without a look.
 void expect_memory_to_parse(std::span<const std::uint32_t> code) {
     ::operator delete(::operator new(256 * code.size() + (64u << 10)));
 }

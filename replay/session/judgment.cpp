@@ -162,7 +162,7 @@ std::optional<double> keep_touched(const StageInfo& stage, const ImageSet& befor
     return strata::keep_touched(wanted->second, is_drawn_over ? &found->second : nullptr);
 }
 
-/// By more than what floats round when light goes from the unit that it is stored in to the frame's.
+/// By more than rounding: a truth that is kept for several rows was scaled to the frame's unit of light and back.
 bool differ(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::any(glm::greaterThan(glm::abs(a - b), 0x1p-21 * glm::max(glm::abs(a), glm::abs(b))));
 }

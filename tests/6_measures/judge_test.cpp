@@ -216,7 +216,7 @@ TEST(Judge, MeasuresWhatTheStageTouchesAlsoAlone) {
     EXPECT_NEAR(relative(accuracy.touched), .1, 1e-12);
     EXPECT_NEAR(relative(accuracy.technique_errors), std::sqrt(.09 / (11 * 4 + 9)), 1e-12);
     truth.at("color").at(2, 0) *= 1 + 0x1p-23;
-    EXPECT_DOUBLE_EQ(judged.against_truth(truth).touched_share, 1. / 12) << "what a float rounds is not drawn over";
+    EXPECT_DOUBLE_EQ(judged.against_truth(truth).touched_share, 1. / 12) << "a rounded sample is not drawn over";
     EXPECT_TRUE(judged.against_truth(judged.model).touched.empty()) << "nothing is drawn over";
 }
 

@@ -257,7 +257,8 @@ TEST(PictureErrors, AreThoseThatLaterStagesLeave) {
     EXPECT_THAT(make_report(*session, wanted), FailsWith("report.stage_makes_picture", Field("stage", "combine")));
 }
 
-/// Exposure chooses the unit that light is stored in, and what is stored before and after a stage is rounded in that unit.
+/// Exposure chooses the unit that light is stored in. A report keeps a truth in the frame's unit and scales it back for every
+/// row.
 TEST(Report, CountsWhatAStageTouchesInAnyUnitOfLight) {
     std::vector<double> shares;
     for (const float exposure : {1.f, .37f, 1.7e-6f}) {

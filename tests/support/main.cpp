@@ -58,8 +58,8 @@ class CpuSeconds : public testing::EmptyTestEventListener {
 }  // namespace strata
 
 int main(int count, char** arguments) {
-    // What a shell's & and nohup let programs ignore; tests send these signals, also to programs that inherit what this one
-    // ignores.
+    // Signals that a shell's & or nohup lets this program ignore, and with it the programs that it starts: tests send them to
+    // both.
     for (const int signal : {SIGINT, SIGQUIT, SIGHUP}) std::signal(signal, SIG_DFL);
     testing::InitGoogleMock(&count, arguments);
     testing::UnitTest::GetInstance()->listeners().Append(new strata::CpuSeconds);  // GoogleTest deletes it
