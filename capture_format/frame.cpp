@@ -1,10 +1,17 @@
-// The computation a plain frame brings along: the axes of AddressMode.
+// What frames do beside holding values: they are made, copied and destroyed where all their types are known. Axes of AddressMode.
 #include "capture_format/frame.h"
 
 #include <array>
 #include <cstddef>
 
 namespace strata {
+
+Frame::Frame() = default;
+Frame::Frame(const Frame&) = default;
+Frame::Frame(Frame&&) noexcept = default;
+Frame& Frame::operator=(const Frame&) = default;
+Frame& Frame::operator=(Frame&&) noexcept = default;
+Frame::~Frame() = default;
 
 AddressMode address_u(AddressMode mode) {
     using enum AddressMode;

@@ -15,7 +15,8 @@
 #include "capture_format/container/blob_store.h"
 #include "capture_format/container/container.h"
 #include "capture_format/container/picture.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/texture.h"
 #include "capture_format/out_of_memory.h"
 
 namespace strata {

@@ -5,7 +5,10 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
 
 namespace strata {
 

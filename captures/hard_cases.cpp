@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/particles.h"
 #include "captures/cards.h"
 
 namespace strata {

@@ -21,6 +21,10 @@ struct Metric {
 using Truth = ImageSet (*)(const StageInput&);
 using Judge = std::vector<Metric> (*)(const ImageSet& result, const ImageSet& truth, const StageInput&);
 
+/// Makes undecided samples of a truth with alternatives what is nearest to the result, and decided. How far an error may thereby
+/// be too small: a bound of the stage's error, in its unit.
+using Settle = Metric (*)(const ImageSet& result, ImageSet& truth);
+
 /// What techniques approximate: the stage's truth, or at some of their settings another one.
 struct TruthRow {
     std::string_view name = {};  ///< empty: the stage's truth

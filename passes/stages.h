@@ -33,6 +33,7 @@ struct StageInfo {
     std::string_view truth_is = "exact, in double";  ///< how far a person may trust it
     std::vector<TruthRow> other_truths = {};         ///< of settings that approximate more or less (Technique::approximates)
     Judge judge = nullptr;
+    Settle settle = nullptr;  ///< null: no truth of the stage has alternatives
     /// Scenarios (captures/scenarios.h) that isolate what the stage can get wrong, the plainest first.
     std::vector<std::string_view> scenarios;
     /// Outputs of which its truth says nothing: the technique's own stay where the truth stands for the others.

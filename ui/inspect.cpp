@@ -5,7 +5,7 @@
 #include <future>
 #include <sstream>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/reader.h"
 #include "replay/standard_streams.h"
 #include "ui/script/script.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/reader.h"
 #include "passes/scene/scene_facts.h"
 #include "replay/error_text.h"

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/stage_choice.h"
 #include "capture_format/reader.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/stages.h"

@@ -2,7 +2,7 @@
 
 #include "capture_format/container/blob_store.h"
 #include "capture_format/container/container.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/reader.h"
 
 namespace strata {

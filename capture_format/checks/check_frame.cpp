@@ -2,9 +2,16 @@
 // a stage must survive: vertex and particle colors, alphas, depth offsets, normals and float texels may be NaN or infinite.
 #include <cmath>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/lens.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/stage_choice.h"
+#include "capture_format/frame/texture.h"
+#include "capture_format/frame/weather.h"
 #include "capture_format/inspection.h"
 #include "capture_format/reader.h"
+#include "capture_format/view.h"
 
 namespace strata {
 namespace {

@@ -316,30 +316,30 @@ StageChoice Decoder::stage_choice(const schema::StageChoice& table) {
 Frame Decoder::decode(const schema::Frame& table) {
     const schema::Environment& environment = *table.environment();
     const schema::Camera& camera = *table.camera();
-    return {
-        .view = view(*table.view()),
-        .time = table.time_s(),
-        .index = table.index(),
-        .seed = table.seed(),
-        .textures = list(*table.textures(), &Decoder::texture),
-        .meshes = list(*table.meshes(), &Decoder::mesh),
-        .materials = list(*table.materials(), &Decoder::material),
-        .draws = list(*table.draws(), &Decoder::draw),
-        .emitters = list(*table.emitters(), &Decoder::emitter),
-        .lights = list(*table.lights(), &Decoder::light),
-        .blockers = list(*table.blockers(), &Decoder::blocker),
-        .portals = list(*table.portals(), &Decoder::portal),
-        .sun = sun(*table.sun()),
-        .hemisphere = {bit_copy<glm::vec3>(*environment.sky_radiance()), bit_copy<glm::vec3>(*environment.ground_radiance())},
-        .background = bit_copy<glm::vec3>(*environment.background_radiance()),
-        .fog = {environment.fog_density_per_m(), bit_copy<glm::vec3>(*environment.fog_radiance()),
-                static_cast<FogPath>(environment.fog_path())},
-        .light_volumes = list(*table.light_volumes(), &Decoder::light_volume),
-        .rain = rain(environment),
-        .lens = lens(camera),
-        .film = {camera.grain(), camera.fade(), camera.white()},
-        .recorded_with = list(*table.recorded_with(), &Decoder::stage_choice),
-    };
+    Frame frame;
+    frame.view = view(*table.view());
+    frame.time = table.time_s();
+    frame.index = table.index();
+    frame.seed = table.seed();
+    frame.textures = list(*table.textures(), &Decoder::texture);
+    frame.meshes = list(*table.meshes(), &Decoder::mesh);
+    frame.materials = list(*table.materials(), &Decoder::material);
+    frame.draws = list(*table.draws(), &Decoder::draw);
+    frame.emitters = list(*table.emitters(), &Decoder::emitter);
+    frame.lights = list(*table.lights(), &Decoder::light);
+    frame.blockers = list(*table.blockers(), &Decoder::blocker);
+    frame.portals = list(*table.portals(), &Decoder::portal);
+    frame.sun = sun(*table.sun());
+    frame.hemisphere = {bit_copy<glm::vec3>(*environment.sky_radiance()), bit_copy<glm::vec3>(*environment.ground_radiance())};
+    frame.background = bit_copy<glm::vec3>(*environment.background_radiance());
+    frame.fog = {environment.fog_density_per_m(), bit_copy<glm::vec3>(*environment.fog_radiance()),
+                 static_cast<FogPath>(environment.fog_path())};
+    frame.light_volumes = list(*table.light_volumes(), &Decoder::light_volume);
+    frame.rain = rain(environment);
+    frame.lens = lens(camera);
+    frame.film = {camera.grain(), camera.fade(), camera.white()};
+    frame.recorded_with = list(*table.recorded_with(), &Decoder::stage_choice);
+    return frame;
 }
 
 /// What decoding would allocate for bulk data. One section has too few tables for the sum to wrap.

@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 
 namespace strata {
 namespace {

@@ -1,5 +1,5 @@
-// A frame for readers of some of its members: the lists are of types that the headers beside this one define, so that a reader
-// of lights includes light.h, too. Whoever makes, copies or destroys frames includes capture_format/frame.h, which has all.
+// A frame for those who use some of its members: the lists are of types that the headers beside this one define, so that a reader
+// of lights includes light.h, too. capture_format/frame.h has all.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +26,13 @@ struct StageChoice;  // stage_choice.h
 struct Texture;      // texture.h
 
 struct Frame {
+    Frame();
+    Frame(const Frame&);
+    Frame(Frame&&) noexcept;
+    Frame& operator=(const Frame&);
+    Frame& operator=(Frame&&) noexcept;
+    ~Frame();
+
     View view;
     double time = 0;          ///< seconds
     std::uint64_t index = 0;  ///< of the recording application

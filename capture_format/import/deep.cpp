@@ -16,7 +16,6 @@
 
 #include "capture_format/container/file.h"
 #include "capture_format/container/picture.h"
-#include "capture_format/frame.h"
 #include "capture_format/frame/draw.h"
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/material.h"
@@ -25,6 +24,7 @@
 #include "capture_format/inspection.h"
 #include "capture_format/memory_budget.h"
 #include "capture_format/out_of_memory.h"
+#include "capture_format/view.h"
 
 namespace strata {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/import/gltf_files.h"
 #include "capture_format/import/gltf_frame.h"
 #include "capture_format/import/gltf_load.h"

@@ -9,10 +9,17 @@
 #include <tuple>
 #include <utility>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/no_index.h"
+#include "capture_format/frame/texture.h"
 #include "capture_format/import/gltf_instances.h"
 #include "capture_format/inspection.h"
 #include "capture_format/reader.h"
+#include "capture_format/view.h"
 
 namespace strata::gltf {
 namespace {

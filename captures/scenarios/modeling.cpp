@@ -5,7 +5,8 @@
 #include <numbers>
 #include <vector>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
 
 namespace strata::scenario::part {
 namespace {

@@ -3,7 +3,8 @@
 #include <utility>
 
 #include "capture_format/codec/texture_mips.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/texture.h"
 #include "capture_format/srgb.h"
 #include "captures/scenarios/random.h"
 

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/texture.h"
 #include "captures/scenarios/painting.h"
 #include "captures/scenarios/random.h"
 

@@ -6,7 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
 
 namespace strata::scenario {
 namespace {

@@ -15,8 +15,8 @@ std::vector<Metric> culling_judge(const ImageSet& result, const ImageSet& truth,
         const bool is_drawn = drawn.texels[i].x != 0, is_visible = exact.texels[i].x != 0;
         drawn_count += is_drawn;
         visible_count += is_visible;
-        needless += is_drawn && !is_visible;
         const bool decided = exact.undecided.empty() || !exact.undecided[i];
+        needless += is_drawn && !is_visible && decided;
         hidden += !is_drawn && is_visible && decided;
     }
     return {{"wrongly hidden", "draws", hidden},

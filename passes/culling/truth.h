@@ -7,7 +7,8 @@ namespace strata {
 
 struct StageInput;  // passes/stage_input.h
 
-/// "visible": 1 for such draws, laid out as FrameImages::visible; undecided where all samples of a draw hang on rounding.
+/// "visible": 1 for such draws, laid out as FrameImages::visible; undecided where all samples that a draw has or may have hang on
+/// rounding.
 ImageSet culling_truth(const StageInput&);
 
 }  // namespace strata

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <optional>
+#include <string_view>
 
 #include "capture_format/frame/frame.h"
 #include "passes/gbuffer/coverage/judge.h"
@@ -68,7 +70,76 @@ void add(Sums& sums, const Texel& got, const Texel& wanted) {
     sums.other_models += got.material.x != wanted.material.x;
 }
 
+bool exists(const Texel& t) { return t.normal.w > 0; }
+
+/// How unlike two surfaces are: squares of the angle in radians, of the relative distance in depth and of what is stored from 0
+/// to 1.
+double unlikeness(const Texel& a, const Texel& b) {
+    if (exists(a) != exists(b)) return HUGE_VAL;
+    if (!exists(a)) return 0;
+    const double angle = glm::radians(degrees_between(a.normal, b.normal));
+    const glm::dvec4 color = a.color - b.color;
+    const glm::dvec2 material(a.material.y - b.material.y, a.material.z - b.material.z);
+    return square(angle) + square((a.normal.w - b.normal.w) / b.normal.w) + glm::dot(color, color) +
+           glm::dot(material, material) + (a.material.x != b.material.x);
+}
+
+/// Alternatives of one texel: places in the lists of all images, which run side by side.
+struct Rivals {
+    std::size_t begin = 0, end = 0;
+};
+
+Texel alternative(const ImageSet& images, std::size_t k) {
+    const auto value = [&](std::string_view name) { return images.find(name)->second.alternatives[k].value; };
+    return {value("surface_normal"), value("surface_color"), value("surface_material")};
+}
+
+/// In degrees; 0 where at most one of the surfaces exists.
+double largest_angle(const ImageSet& truth, std::size_t texel_index, const Rivals& rivals) {
+    std::vector<glm::dvec3> normals;
+    const auto add = [&](const Texel& t) {
+        if (exists(t)) normals.emplace_back(t.normal);
+    };
+    add(texel(truth, texel_index));
+    for (std::size_t k = rivals.begin; k < rivals.end; ++k) add(alternative(truth, k));
+    double largest = 0;
+    for (const glm::dvec3& a : normals)
+        for (const glm::dvec3& b : normals) largest = std::max(largest, degrees_between(a, b));
+    return largest;
+}
+
 }  // namespace
+
+Metric settle_gbuffer(const ImageSet& result, ImageSet& truth) {
+    const ReferenceImage& normals = truth.at("surface_normal");
+    double squared_angles = 0, surfaces = 0;
+    for (const glm::dvec4& normal : normals.texels) surfaces += normal.w > 0;
+    const std::size_t count = normals.alternatives.size();
+    for (Rivals rivals{}; rivals.begin < count; rivals.begin = rivals.end) {
+        const std::size_t i = normals.alternatives[rivals.begin].texel;
+        while (rivals.end < count && normals.alternatives[rivals.end].texel == i) ++rivals.end;
+        if (!normals.undecided[i]) continue;
+        squared_angles += square(largest_angle(truth, i, rivals));
+        const Texel got = texel(result, i);
+        double least = unlikeness(got, texel(truth, i));
+        std::optional<std::size_t> nearest;
+        for (std::size_t k = rivals.begin; k < rivals.end; ++k) {
+            const double unlike = unlikeness(got, alternative(truth, k));
+            if (unlike >= least) continue;
+            least = unlike;
+            nearest = k;
+        }
+        for (auto& [name, image] : truth) {
+            if (image.alternatives.empty()) continue;
+            if (nearest && name == "depth_layers")
+                image.texels[i].x = image.alternatives[*nearest].value.x;  // the rest is of the pixel
+            if (nearest && name != "depth_layers") image.texels[i] = image.alternatives[*nearest].value;
+            image.undecided[i] = false;
+        }
+    }
+    for (auto& [name, image] : truth) image.alternatives.clear();
+    return {"normal angle rms", "degrees", std::sqrt(squared_angles / std::max(1.0, surfaces))};
+}
 
 std::vector<Metric> gbuffer_judge(const ImageSet& result, const ImageSet& truth, const StageInput& input) {
     const ReferenceImage& normals = truth.at("surface_normal");

@@ -20,14 +20,15 @@ ImageSet stored_images(const StageInput& input, const Settings& settings, const 
     const auto params = settings.as<FillParams>();
     const ShadeAt shade_at = params.attributes == attributes_at_sample ? ShadeAt::sample : ShadeAt::pixel_center;
     const View& view = input.frame.view;
-    std::vector<NearestSurface> surfaces = nearest_surfaces(input.frame, shade_at, params.masked);
+    SurfacesOfSamples surfaces = nearest_surfaces(input.frame, shade_at, params.masked);
+    surfaces.rivals.clear();  // a model leaves out what is undecided
     const std::size_t pixels = std::size_t(view.width) * view.height;
-    for (std::size_t i = 0; i < surfaces.size(); ++i) {
-        if (!surfaces[i].exists) continue;
+    for (std::size_t i = 0; i < surfaces.nearest.size(); ++i) {
+        if (!surfaces.nearest[i].exists) continue;
         const std::size_t pixel = i % pixels;
         const glm::dvec2 center(double(pixel % view.width) + 0.5, double(pixel / view.width) + 0.5);
         const glm::dvec2 offset = sample_position(view.samples, static_cast<std::uint32_t>(i / pixels)) - 0.5;
-        store(surfaces[i], {input.frame, center, offset});
+        store(surfaces.nearest[i], {input.frame, center, offset});
     }
     return surface_images(input.frame, surfaces);
 }

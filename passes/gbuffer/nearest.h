@@ -18,11 +18,23 @@ struct NearestSurface {
     glm::dvec2 offset{0};    ///< from the pixel's center to where the position lies, in pixels
 };
 
-/// In the order of ReferenceImage's texels, layer = sample. Backs of one-sided faces and what the alpha test cuts are not there.
+/// What else a sample may show where rounding decides.
+struct RivalSurface {
+    std::size_t texel = 0;
+    NearestSurface surface;
+};
+
+struct SurfacesOfSamples {
+    std::vector<NearestSurface> nearest;  ///< in the order of ReferenceImage's texels, layer = sample
+    std::vector<RivalSurface> rivals;     ///< in the same order
+};
+
+/// Backs of one-sided faces and what the alpha test cuts are not there.
 /// `masked` is a mode of passes/gbuffer/coverage/coverage.shared.h.
-std::vector<NearestSurface> nearest_surfaces(const Frame&, ShadeAt, std::uint32_t masked = masked_clip);
+SurfacesOfSamples nearest_surfaces(const Frame&, ShadeAt, std::uint32_t masked = masked_clip);
 
 /// surface_normal, surface_color, surface_material, emission and depth_layers as passes/frame_images.h defines them.
-ImageSet surface_images(const Frame&, const std::vector<NearestSurface>&);
+/// Rivals are alternatives of the first five.
+ImageSet surface_images(const Frame&, const SurfacesOfSamples&);
 
 }  // namespace strata::gbuffer

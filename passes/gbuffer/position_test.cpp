@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/view.h"
 #include "passes/gbuffer/layout_model.h"
 

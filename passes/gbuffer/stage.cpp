@@ -18,6 +18,7 @@ StageInfo stage() {
                         "gbuffer1", "gbuffer2"},
             .truth = gbuffer_truth,
             .judge = gbuffer_judge,
+            .settle = settle_gbuffer,
             .scenarios = {"one_sphere", "materials", "lighting_models", "opaque_only", "city_of_boxes", "sun_and_boxes",
                           "fence_and_foliage", "sixteen_normals", "far_wall"},
             // Depth is alike in all layouts, and readers of given surfaces do not read the layout.

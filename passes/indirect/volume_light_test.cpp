@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/image_set.h"
 #include "passes/indirect/light_grid.shared.h"
 #include "passes/stage_input.h"

@@ -155,20 +155,30 @@ struct FoundRow {
     std::vector<Fragment> fragments;
     std::vector<std::uint32_t> slots;
     std::vector<std::size_t> next;  ///< where a slot's next fragment goes
+    /// Points whose side of a triangle is undecided, each with its place in `fragments` or, beside the triangle, in near_misses.
+    std::vector<std::pair<RasterPoint, std::size_t>> inside, beside;
 };
 
-// Whether the result depends on the order of two fragments whose depths a float cannot tell apart. Exact ties are decided by
-// submission; fragments that cover nothing commute.
+// Of two triangles that continue each other across a side near the sample, one surely has it.
+void pair_neighbors(FoundRow& found, std::vector<NearMiss>& near_misses) {
+    for (const auto& [point, place] : found.inside) {
+        const auto neighbor = std::ranges::find_if(found.beside, [&](const auto& other) {
+            return !near_misses[other.second].instead_of && share_a_side(point, other.first);
+        });
+        if (neighbor == found.beside.end()) continue;
+        Fragment& fragment = found.fragments[place];
+        fragment.may_be_absent = false;
+        near_misses[neighbor->second].instead_of = fragment.submission;
+    }
+}
+
 // `sorted` is memory to reuse.
 bool order_is_undecided(std::span<const Fragment> list, std::vector<const Fragment*>& sorted) {
     sorted.resize(list.size());
     std::transform(list.begin(), list.end(), sorted.begin(), [](const Fragment& f) { return &f; });
     std::ranges::sort(sorted, {}, [](const Fragment* f) { return std::pair(f->depth, f); });
-    for (std::size_t i = 1; i < sorted.size(); ++i) {
-        const double gap = sorted[i]->depth - sorted[i - 1]->depth;
-        const bool commute = sorted[i]->transmittance == glm::dvec3(1) && sorted[i - 1]->transmittance == glm::dvec3(1);
-        if (!commute && gap > 0 && gap <= std::abs(sorted[i]->depth) * depth_rounding) return true;
-    }
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+        if (strata::order_is_undecided(*sorted[i - 1], *sorted[i])) return true;
     return false;
 }
 
@@ -234,6 +244,11 @@ bool FragmentLists::undecided(std::uint32_t x, std::uint32_t y, std::uint32_t sa
     return rows_[y].undecided[std::size_t(x) * samples_ + sample] != 0;
 }
 
+std::span<const NearMiss> FragmentLists::near_misses(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const {
+    const auto found = std::ranges::equal_range(rows_[y].near_misses, x * samples_ + sample, {}, &NearMiss::slot);
+    return {found.begin(), found.end()};
+}
+
 std::uint64_t FragmentLists::total() const {
     return std::accumulate(rows_.begin(), rows_.end(), std::uint64_t{0},
                            [](std::uint64_t sum, const FragmentRow& row) { return sum + row.fragments.size(); });
@@ -241,11 +256,14 @@ std::uint64_t FragmentLists::total() const {
 
 void FragmentLists::scale_light(double factor) {
     if (factor == 1) return;
-    for (FragmentRow& row : rows_)
-        for (Fragment& fragment : row.fragments) {
-            fragment.color *= factor;
-            fragment.emission *= factor;
-        }
+    const auto scale = [factor](Fragment& fragment) {
+        fragment.color *= factor;
+        fragment.emission *= factor;
+    };
+    for (FragmentRow& row : rows_) {
+        std::ranges::for_each(row.fragments, scale);
+        std::ranges::for_each(row.near_misses, scale, &NearMiss::fragment);
+    }
 }
 
 std::uint32_t FragmentLists::deepest() const {
@@ -287,6 +305,9 @@ void FragmentRows::fill(std::uint32_t y, FragmentRow& row) const {
     FoundRow& found = scene_->found.local();
     found.fragments.clear();
     found.slots.clear();
+    found.inside.clear();
+    found.beside.clear();
+    row.near_misses.clear();
     scene_->raster.row(y, {.near_misses = true}, [&](const RasterPoint& point, const RasterTriangle& triangle) {
         const double opaque_depth = scene_->depth.at(point.x, point.y, point.sample).x;
         const DepthTest test = depth_test(point, opaque_depth);
@@ -298,16 +319,30 @@ void FragmentRows::fill(std::uint32_t y, FragmentRow& row) const {
             fragment->depth = ordering_depth(frame, fragment->layer, fragment->depth);
         }
         const std::uint32_t slot = point.x * samples + point.sample;
-        if (point.undecided || test != DepthTest::passes) row.undecided[slot] = 1;
-        if (!point.covered || test == DepthTest::undecided_fails) return;
+        fragment->may_be_absent = point.undecided || test != DepthTest::passes;
+        if (fragment->may_be_absent) row.undecided[slot] = 1;
+        if (!point.covered || test == DepthTest::undecided_fails) {
+            if (test == DepthTest::passes) found.beside.emplace_back(point, row.near_misses.size());
+            row.near_misses.push_back({slot, *fragment});
+            return;
+        }
+        if (test == DepthTest::passes && point.undecided) found.inside.emplace_back(point, found.fragments.size());
         found.fragments.push_back(*fragment);
         found.slots.push_back(slot);
         ++row.begin[slot + 1];
     });
+    pair_neighbors(found, row.near_misses);
+    std::ranges::stable_sort(row.near_misses, {}, &NearMiss::slot);
     for (std::size_t i = 1; i < row.begin.size(); ++i) row.begin[i] += row.begin[i - 1];
     row.fragments.resize(found.fragments.size());
     found.next.assign(row.begin.begin(), row.begin.end() - 1);
     for (std::size_t i = 0; i < found.fragments.size(); ++i) row.fragments[found.next[found.slots[i]]++] = found.fragments[i];
+}
+
+bool order_is_undecided(const Fragment& nearer, const Fragment& farther) {
+    const double gap = farther.depth - nearer.depth;
+    const bool commute = nearer.transmittance == glm::dvec3(1) && farther.transmittance == glm::dvec3(1);
+    return !commute && gap > 0 && gap <= std::abs(farther.depth) * depth_rounding;
 }
 
 FragmentLists transparent_fragments(const Frame& frame, const ReferenceImage& depth, PixelRows rows, LightAround around) {

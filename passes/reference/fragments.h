@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,14 @@ struct Fragment {
     double soft_fade = 0;          ///< meters over which its particle fades before opaque surfaces; 0 is hard
     std::uint32_t layer = 0;       ///< of interfaces, of which `depth` is made; 0 the world
     std::uint32_t submission = 0;  ///< later submissions are nearer at equal depth; one number per triangle
+    bool may_be_absent = false;    ///< rounding decides whether it is there
+};
+
+/// A fragment that is not there, but that rounding may put there.
+struct NearMiss {
+    std::uint32_t slot = 0;  ///< x * samples + sample
+    Fragment fragment;
+    std::optional<std::uint32_t> instead_of;  ///< submission of the fragment in whose place it is, if it is: one of both is there
 };
 
 /// A point of a triangle under a sample, before any shading.
@@ -53,6 +62,7 @@ struct RasterPoint {
     bool front_facing = true;
     bool covered = true;  ///< false: a near miss
     bool undecided = false;
+    std::uint32_t near_sides = 0;  ///< of its triangle, so near that either of their sides may have the sample
 };
 
 enum class ShadeAt { sample, pixel_center };
@@ -80,6 +90,7 @@ std::vector<std::uint32_t> transparent_draws(const Frame&);
 struct VisiblePoints {
     std::uint32_t width = 0, height = 0, samples = 1;
     std::vector<RasterPoint> points;  ///< depth 0 and draw no_index where there is no surface; `undecided` is set there, too
+    std::vector<RasterPoint> rivals;  ///< which else may be the nearest of an undecided sample, in the order of samples; likewise
 
     std::size_t index(std::uint32_t x, std::uint32_t y, std::uint32_t sample = 0) const {
         return (std::size_t(sample) * height + y) * width + x;
@@ -108,6 +119,7 @@ struct FragmentRow {
     std::vector<Fragment> fragments;
     std::vector<std::size_t> begin;  ///< one more than there are samples in the row
     std::vector<std::uint8_t> undecided;
+    std::vector<NearMiss> near_misses;  ///< by slot
 
     std::span<const Fragment> at(std::size_t slot) const {
         return std::span(fragments).subspan(begin[slot], begin[slot + 1] - begin[slot]);
@@ -137,6 +149,7 @@ public:
     FragmentLists(std::uint32_t width, std::uint32_t height, std::uint32_t samples);
     std::span<const Fragment> at(std::uint32_t x, std::uint32_t y, std::uint32_t sample = 0) const;
     bool undecided(std::uint32_t x, std::uint32_t y, std::uint32_t sample = 0) const;
+    std::span<const NearMiss> near_misses(std::uint32_t x, std::uint32_t y, std::uint32_t sample = 0) const;
     std::uint32_t width() const { return width_; }
     std::uint32_t height() const { return height_; }
     std::uint32_t samples() const { return samples_; }
@@ -151,6 +164,10 @@ private:
     std::uint32_t width_, height_, samples_;
     std::vector<FragmentRow> rows_;
 };
+
+/// Whether the result depends on the order of two fragments next to each other, whose depths a float cannot tell apart. Exact
+/// ties are decided by submission; fragments that cover nothing commute.
+bool order_is_undecided(const Fragment& nearer, const Fragment& farther);
 
 /// Fragments in front of `depth` (device depth per sample, reversed: layer = sample), in submission order, dropped and
 /// sanitized as docs/algorithms/transparency.md 0.2 says, shaded at the sample. Undecided: coverage, the depth test, or the order

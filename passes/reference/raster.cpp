@@ -120,7 +120,11 @@ void set_edges(RasterTriangle& triangle, std::span<const SnappedCorner> corners,
     triangle.edge_count = static_cast<std::uint32_t>(n);
 }
 
-enum class Verdict { outside, near_miss, covered, covered_undecided };
+enum class Cover { outside, near_miss, covered };
+struct Verdict {
+    Cover cover = Cover::outside;
+    std::uint32_t near_sides = 0;
+};
 
 /// What decides on a verdict beside the place.
 struct Sides {
@@ -129,20 +133,19 @@ struct Sides {
 };
 
 Verdict verdict_at(const RasterTriangle& triangle, const glm::i64vec2& p, const Sides& sides) {
-    bool covered = true, near_side = false;
+    Verdict verdict{Cover::covered};
     for (std::uint32_t i = 0; i < triangle.edge_count; ++i) {
         const RasterEdge& edge = triangle.edges[i];
         const std::int64_t height = edge.dx * p.y - edge.dy * p.x + edge.offset;
         const double distance = double(height) * edge.inverse_length;
-        if (distance < -sides.undecided_within) return Verdict::outside;
+        if (distance < -sides.undecided_within) return {};
         const bool decides = edge.decides || sides.seams;
         const bool inside = height > 0 || (height == 0 && edge.top_left);
-        if (!inside && !decides) return Verdict::outside;
-        covered = covered && inside;
-        near_side = near_side || (decides && distance <= sides.undecided_within);
+        if (!inside && !decides) return {};
+        if (!inside) verdict.cover = Cover::near_miss;
+        verdict.near_sides += decides && distance <= sides.undecided_within;
     }
-    if (!covered) return Verdict::near_miss;
-    return near_side ? Verdict::covered_undecided : Verdict::covered;
+    return verdict;
 }
 
 // Pixels of the row that the polygon can touch, [x, y).
@@ -174,6 +177,12 @@ bool keeps_back_faces(const Frame& frame, std::uint32_t draw) {
 
 double depth_tolerance(const RasterPoint& point) {
     return std::abs(point.depth) * 0x1p-22 + point.depth_slope / double(snap_steps);
+}
+
+bool share_a_side(const RasterPoint& a, const RasterPoint& b) {
+    return a.x == b.x && a.sample == b.sample && a.covered != b.covered && a.near_sides == 1 && b.near_sides == 1 &&
+           a.draw == b.draw && a.front_facing == b.front_facing &&
+           std::abs(a.depth - b.depth) <= 2 * (depth_tolerance(a) + depth_tolerance(b));
 }
 
 Raster::Raster(const Frame& frame, std::span<const std::uint32_t> draws, double undecided_within)
@@ -261,14 +270,15 @@ void Raster::visit_pixel(const RasterTriangle& triangle, glm::uvec2 pixel, Raste
         const glm::dvec2 at = glm::dvec2(pixel) + sample_position(view.samples, sample);
         const Verdict verdict =
             verdict_at(triangle, glm::i64vec2(at * double(snap_steps)), {undecided_within_, options.near_seams});
-        if (verdict == Verdict::outside || (verdict == Verdict::near_miss && !options.near_misses)) continue;
+        if (verdict.cover == Cover::outside || (verdict.cover == Cover::near_miss && !options.near_misses)) continue;
         const glm::dvec3 sample_ray = pixel_ray(*frame_, at.x, at.y);
         RasterPoint point{.x = pixel.x, .y = pixel.y, .sample = sample, .draw = triangle.draw, .triangle = triangle.triangle};
         point.depth = double(view.near) * triangle.rays.inverse_z(sample_ray);
         point.depth_slope = std::max(std::abs(triangle.depth_slope.x), std::abs(triangle.depth_slope.y));
         point.front_facing = triangle.front_facing;
-        point.covered = verdict != Verdict::near_miss;
-        point.undecided = verdict != Verdict::covered;
+        point.covered = verdict.cover == Cover::covered;
+        point.undecided = verdict.near_sides > 0;
+        point.near_sides = verdict.near_sides;
         point.barycentric = triangle.rays.barycentric(sample_ray);
         if (options.shade_at == ShadeAt::pixel_center && view.samples > 1) {
             const glm::dvec3 center_ray = pixel_ray(*frame_, pixel.x + 0.5, pixel.y + 0.5);

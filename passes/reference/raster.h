@@ -74,6 +74,10 @@ private:
 /// How far the device's depth at a sample may be from ours: two ulps of a float, and what a snap step makes of the slope.
 double depth_tolerance(const RasterPoint&);
 
+/// Whether the triangles of two points of one sample continue each other across a side near the sample: one of them surely has
+/// it.
+bool share_a_side(const RasterPoint&, const RasterPoint&);
+
 /// Per triangle of a mesh a bit per side (0: from corner 0 to 1): set where exactly one other triangle has the same side, lies
 /// in the same plane and continues every attribute linearly. Which of the two covers a sample there makes no difference.
 std::vector<std::uint8_t> seams_of_mesh(const Mesh&);

@@ -1,6 +1,10 @@
 // Shaders read enums of a capture as numbers. Their constants in *.shared.h have the values of capture_format/frame.h: an
 // enumerator in the middle of an enum stops the build here.
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/texture.h"
+#include "capture_format/frame/weather.h"
 #include "capture_format/light_types.h"
 #include "passes/shaders/light_types.shared.h"
 #include "passes/shaders/scene.shared.h"

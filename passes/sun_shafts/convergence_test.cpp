@@ -8,7 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/view.h"
 #include "captures/scenarios.h"
 #include "passes/reference/difference.h"
 #include "passes/reference/fragments.h"

@@ -7,7 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/texture.h"
 #include "passes/reference/rays.h"
 #include "tests/support/one_pixel.h"
 

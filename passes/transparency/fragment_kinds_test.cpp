@@ -9,7 +9,10 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/particles.h"
 #include "capture_format/frame_features.h"
 #include "captures/cards.h"
 #include "passes/registry.h"

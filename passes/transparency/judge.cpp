@@ -1,11 +1,13 @@
 #include "passes/transparency/judge.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <cstddef>
 
 #include "capture_format/frame/frame.h"
 #include "passes/reference/difference.h"
+#include "passes/reference/settle.h"
 #include "passes/stage_input.h"
 
 namespace strata {
@@ -66,6 +68,14 @@ std::vector<Metric> transparency_judge(const ImageSet& result, const ImageSet& t
         {"over 10 %", "%", over(.1)},
         {"off by 1/255", "%", percent(off), true},
     };
+}
+
+Metric settle_transparency(const ImageSet& result, ImageSet& truth) {
+    ReferenceImage& color = truth.at("color");
+    const double width = settle(result.at("color"), color);
+    double squares = 0;
+    for (const glm::dvec4& texel : color.texels) squares += glm::dot(glm::dvec3(texel), glm::dvec3(texel)) / 3;
+    return {"relative rmse", "", width / std::sqrt(std::max(squares, DBL_MIN) / double(color.texels.size()))};
 }
 
 }  // namespace strata

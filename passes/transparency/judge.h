@@ -14,4 +14,7 @@ struct StageInput;  // passes/stage_input.h
 /// share of samples over 2 % and over 10 %; and the share of samples more than 1/255 off after the tone curve.
 std::vector<Metric> transparency_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
 
+/// The bound is of the relative rmse.
+Metric settle_transparency(const ImageSet& result, ImageSet& truth);
+
 }  // namespace strata

@@ -7,7 +7,9 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/particles.h"
 #include "passes/indirect/volume_light.h"
 #include "passes/luminance.h"
 #include "passes/reference/ordering.h"

@@ -40,6 +40,7 @@ StageInfo stage() {
             .outputs = {"color"},
             .truth = transparency_truth,
             .judge = transparency_judge,
+            .settle = settle_transparency,
             .scenarios = {
                 "one_pane",         "three_panes",         "interpenetrating_panes", "sixty_layers",     "two_hundred_layers",
                 "pane_at_the_lens", "red_and_green_glass", "additive_sparks",        "coincident_panes", "nan_particles",

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "capture_format/container/whole_file.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/indirect/volume_light.h"
 #include "passes/stage_input.h"
 #include "replay/cli/export_kinds.h"

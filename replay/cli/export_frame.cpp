@@ -2,7 +2,7 @@
 #include "capture_format/codec/frame_json.h"
 #include "capture_format/container/whole_file.h"
 #include "capture_format/export/gltf.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/reader.h"
 #include "replay/cli/export_kinds.h"
 

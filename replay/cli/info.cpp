@@ -5,7 +5,15 @@
 #include <nlohmann/json.hpp>
 
 #include "capture_format/check_capture.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/light_volume.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
+#include "capture_format/frame/stage_choice.h"
+#include "capture_format/frame/texture.h"
 #include "capture_format/reader.h"
 #include "passes/stages.h"
 #include "replay/cli/verb_options.h"

@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "capture_format/container/whole_file.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/reader.h"
 #include "passes/technique.h"
 #include "replay/cli/given_options.h"

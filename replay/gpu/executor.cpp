@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/settings.h"
 #include "replay/gpu/device_memory.h"
 #include "replay/gpu/host_timer.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "capture_format/frame.h"
 #include "capture_format/frame/frame.h"
 #include "capture_format/nearest_name.h"
 #include "passes/reference/ordering.h"

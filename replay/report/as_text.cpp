@@ -114,6 +114,21 @@ std::string truth_text(const Report& report, const ReportTruth& truth) {
     return fmt::format("truth of {}: {}\n", rows, truth.is);
 }
 
+/// What rounding decides, and what of it is judged all the same.
+std::string undecided_text(const Accuracy& accuracy, std::string_view samples) {
+    std::string text;
+    if (const auto& bound = accuracy.undecided_bound)
+        text += fmt::format(
+            "rounding decides {:.3g} % of {}: their error is the distance to what it allows, which hides at most {}"
+            "{} of {}\n",
+            100 * accuracy.undecided_share, samples, short_number(bound->value), bound->unit.empty() ? "" : " " + bound->unit,
+            bound->name);
+    if (accuracy.unjudged_share > 0)
+        text += fmt::format("left out of the errors: {:.3g} % of {}, where rounding decides what is drawn or in which order\n",
+                            100 * accuracy.unjudged_share, samples);
+    return text;
+}
+
 std::string heading(const Report& report) {
     std::string text =
         fmt::format("{} of {} frame {}, {} x {}, {} per pixel, capture {}\n", name(report.stage), report.capture_name,
@@ -129,10 +144,7 @@ std::string heading(const Report& report) {
     const bool of_picture = report.error_at == ErrorAt::picture;
     if (of_picture) text += "errors are of the picture: the later stages run from each row's outputs and from the truth\n";
     const Measurement* measured = first_measured(report);
-    if (measured && measured->accuracy.undecided_share > 0)
-        text +=
-            fmt::format("left out of the errors: {:.3g} % of samples, where rounding decides what is drawn or in which order\n",
-                        100 * measured->accuracy.undecided_share);
+    if (measured) text += undecided_text(measured->accuracy, of_picture ? "pixels" : "samples");
     if (measured && measured->accuracy.not_numbers > 0)
         text += fmt::format("left out of the errors: {}, NaN in the truth and in the result of {}\n",
                             plural(measured->accuracy.not_numbers, of_picture ? "pixel" : "sample"), measured->technique);

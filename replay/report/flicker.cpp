@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/mesh.h"
 #include "capture_format/frame/particles.h"

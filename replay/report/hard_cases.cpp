@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/frame_images.h"
 #include "passes/technique.h"
 #include "replay/gpu/kept_pipelines.h"

@@ -5,6 +5,7 @@
 
 #include "passes/frame_images.h"
 #include "passes/reference/difference.h"
+#include "passes/reference/settle.h"
 #include "passes/stage_input.h"
 #include "passes/stages.h"
 #include "replay/measure/flip.h"
@@ -34,13 +35,53 @@ Result<ImageSet> found_before(Session& session, const Request& request, Stage st
     return before;
 }
 
-/// Leaves out the pixels of which a sample of the stage's picture is undecided. Images of another extent say nothing of pixels.
+/// Leaves out the pixels of which a sample of the stage's picture is undecided, and what else it may be is not known. Images of
+/// another extent say nothing of pixels.
 void leave_out_undecided(const ReferenceImage& truth, ReferenceImage& display) {
     const std::size_t pixels = std::size_t(display.width) * display.height;
     if (truth.width != display.width || truth.height != display.height) return;
     display.undecided.resize(pixels);
+    std::vector<bool> is_known(truth.undecided.size());
+    for (const Alternative& other : truth.alternatives) is_known[other.texel] = true;
     for (std::size_t i = 0; i < truth.undecided.size(); ++i)
-        if (truth.undecided[i]) display.undecided[i % pixels] = true;
+        if (truth.undecided[i] && !is_known[i]) display.undecided[i % pixels] = true;
+}
+
+constexpr std::size_t most_other_pictures = 3;
+
+/// The truth with the same alternative, or the last, in all undecided texels; nothing where no texel has so many.
+std::optional<ImageSet> other_truth(const ImageSet& truth, std::size_t number) {
+    std::optional<ImageSet> made;
+    for (const auto& [name, image] : truth) {
+        std::size_t of_texel = 0;
+        for (std::size_t i = 0; i < image.alternatives.size(); ++i) {
+            const auto& [texel, value] = image.alternatives[i];
+            of_texel = i > 0 && image.alternatives[i - 1].texel == texel ? of_texel + 1 : 0;
+            if (of_texel > number) continue;
+            if (of_texel == number && !made) made = truth;
+            if (made) made->at(name).texels[texel] = value;
+        }
+    }
+    return made;
+}
+
+/// Pixels that show something else where the truth may be something else are undecided, with that as an alternative.
+Result<void> add_alternatives(Session& session, const Request& request, Stage stage, const ImageSet& truth,
+                              ReferenceImage& display) {
+    display.undecided.resize(display.texels.size());
+    for (std::size_t number = 0; number < most_other_pictures; ++number) {
+        const auto outputs = other_truth(truth, number);
+        if (!outputs) break;
+        const auto other = picture_from(session, request, stage, *outputs);
+        if (!other) return other.error();
+        for (std::size_t i = 0; i < display.texels.size(); ++i) {
+            if (other->texels[i] == display.texels[i]) continue;
+            display.undecided[i] = true;
+            display.alternatives.push_back({i, other->texels[i]});
+        }
+    }
+    std::ranges::stable_sort(display.alternatives, {}, &Alternative::texel);
+    return {};
 }
 
 /// Smaller is better; shares in percent of the pixels that are compared.
@@ -71,6 +112,7 @@ Result<PictureTruth> picture_truth(Session& session, const Request& request, Sta
     if (!before) return before.error();
     const auto without = picture_from(session, request, stage, *before);
     if (!without) return without.error();
+    if (const auto added = add_alternatives(session, request, stage, truth, *display); !added) return added.error();
     if (const auto shown = truth.find(info(stage).outputs.front()); shown != truth.end())
         leave_out_undecided(shown->second, *display);
     PictureTruth made{.display = *display, .touched = *std::move(display)};
@@ -79,21 +121,25 @@ Result<PictureTruth> picture_truth(Session& session, const Request& request, Sta
 }
 
 Result<void> judge_picture(Session& session, Request request, const PictureTruth& truth, Accuracy& accuracy) {
-    if (is_all_left_out(truth.display)) {
-        accuracy.not_supported = "no pixel can be judged: rounding decides what a sample of each of them shows";
-        accuracy.technique_errors.clear();
-        accuracy.flip.reset();
-        return {};
-    }
     request.outputs = {picture};
     const auto run = session.run(request);
     if (!run) return run.error();
     const HostImage& display = run->images.at(picture);
     const ReferenceImage got = in_double(display);
     ReferenceImage wanted = truth.display, touched = truth.touched;
+    accuracy.undecided_share = undecided_share(wanted);
+    accuracy.undecided_bound = Metric{"display rmse", "of white", settle(got, wanted)};
+    accuracy.unjudged_share = undecided_share(wanted);
+    settle(got, touched);
+    if (accuracy.unjudged_share == 1) {
+        accuracy.not_supported = "no pixel can be judged: rounding decides what a sample of each of them shows";
+        accuracy.technique_errors.clear();
+        accuracy.flip.reset();
+        return {};
+    }
     accuracy.not_numbers = leave_out_not_numbers(got, wanted);
     leave_out_not_numbers(got, touched);
-    if (accuracy.not_numbers > 0 && is_all_left_out(wanted)) {
+    if (accuracy.not_numbers > 0 && undecided_share(wanted) == 1) {
         accuracy.not_supported = nothing_but_not_numbers(accuracy.not_numbers, "pixel");
         accuracy.technique_errors.clear();
         accuracy.flip.reset();

@@ -9,7 +9,7 @@ namespace strata {
 
 /// What every row of a report is compared with.
 struct PictureTruth {
-    ReferenceImage display;  ///< of the truth, without the pixels in which a sample of the truth is undecided
+    ReferenceImage display;  ///< of the truth; where its alternatives show something else, that is an alternative
     ReferenceImage touched;  ///< the same with only those pixels that the stage changes
     double touched_share = 1;
 };

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "capture_format/frame.h"
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/particles.h"
+#include "capture_format/view.h"
 #include "passes/registry.h"
 #include "passes/scene/object_order.h"
 #include "passes/stages.h"

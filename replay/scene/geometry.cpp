@@ -11,9 +11,11 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
 #include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
 #include "capture_format/frame/mesh.h"
+#include "capture_format/frame/no_index.h"
 #include "capture_format/frame/particles.h"
 #include "passes/scene/object_order.h"
 #include "passes/scene/scene_facts.h"

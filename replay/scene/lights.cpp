@@ -1,8 +1,9 @@
 // The view, the lights and their shadow maps as records.
-#include "capture_format/frame.h"
 #include "capture_format/frame/draw.h"
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/light.h"
+#include "capture_format/frame/no_index.h"
+#include "capture_format/view.h"
 #include "passes/scene/light_records.h"
 #include "passes/scene/pre_exposure.h"
 #include "passes/scene/scene_facts.h"

@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <set>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/particles.h"
+#include "capture_format/view.h"
 #include "passes/indirect/volume_light.h"
 #include "passes/stage_input.h"
 #include "passes/stages.h"

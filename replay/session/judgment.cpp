@@ -167,12 +167,10 @@ bool differ(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::any(glm::greaterThan(glm::abs(a - b), 0x1p-21 * glm::max(glm::abs(a), glm::abs(b))));
 }
 
-/// Of the texels of one image; 0 where there is none.
+/// 0 where there is no such image.
 double undecided_share(const ImageSet& truth, std::string_view image) {
     const auto found = truth.find(image);
-    if (found == truth.end() || found->second.undecided.empty()) return 0;
-    const std::vector<bool>& undecided = found->second.undecided;
-    return double(std::ranges::count(undecided, true)) / double(undecided.size());
+    return found == truth.end() ? 0 : undecided_share(found->second);
 }
 
 /// The figures that the stage's judge would give, every one infinite.
@@ -198,7 +196,9 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
         return;
     }
     accuracy.undecided_share = undecided_share(truth, of_stage.outputs.front());
-    if (accuracy.undecided_share == 1) {
+    if (of_stage.settle && accuracy.undecided_share > 0) accuracy.undecided_bound = of_stage.settle(stage.result, truth);
+    accuracy.unjudged_share = undecided_share(truth, of_stage.outputs.front());
+    if (accuracy.unjudged_share == 1) {
         accuracy.not_supported = "no sample can be judged: rounding decides what each of them shows";
         return;
     }
@@ -206,7 +206,7 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
     const auto got = stage.result.find(of_stage.outputs.front());
     if (wanted != truth.end() && got != stage.result.end() && same_extent(got->second, wanted->second)) {
         accuracy.not_numbers = leave_out_not_numbers(got->second, wanted->second);
-        if (accuracy.not_numbers > 0 && is_all_left_out(wanted->second)) {
+        if (accuracy.not_numbers > 0 && undecided_share(wanted->second) == 1) {
             accuracy.not_supported = nothing_but_not_numbers(accuracy.not_numbers, "sample");
             return;
         }
@@ -223,13 +223,17 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
 
 std::optional<double> keep_touched(ReferenceImage& image, const ReferenceImage* before) {
     image.undecided.resize(image.texels.size());
+    std::vector<bool> has_alternatives(image.texels.size());
+    for (const Alternative& other : image.alternatives) has_alternatives[other.texel] = true;
     std::size_t touched = 0, kept = 0;
     for (std::size_t i = 0; i < image.texels.size(); ++i) {
         const bool is_touched = differ(glm::dvec3(image.texels[i]), before ? glm::dvec3(before->texels[i]) : glm::dvec3(0));
         touched += is_touched;
         image.undecided[i] = image.undecided[i] || !is_touched;
-        kept += !image.undecided[i];
+        has_alternatives[i] = has_alternatives[i] && is_touched;
+        kept += !image.undecided[i] || has_alternatives[i];
     }
+    std::erase_if(image.alternatives, [&](const Alternative& other) { return !has_alternatives[other.texel]; });
     return kept == 0 ? std::nullopt : std::optional(double(touched) / double(image.texels.size()));
 }
 
@@ -250,8 +254,9 @@ std::string nothing_but_not_numbers(std::size_t count, std::string_view of) {
     return fmt::format("no {} can be judged: {} of them are NaN in the result and in the truth", of, count);
 }
 
-bool is_all_left_out(const ReferenceImage& image) {
-    return !image.undecided.empty() && std::ranges::count(image.undecided, false) == 0;
+double undecided_share(const ReferenceImage& image) {
+    const std::vector<bool>& undecided = image.undecided;
+    return undecided.empty() ? 0 : double(std::ranges::count(undecided, true)) / double(undecided.size());
 }
 
 void leave_out_sides(const Frame& frame, std::uint32_t device_snap_steps, ImageSet& images) {
@@ -262,6 +267,7 @@ void leave_out_sides(const Frame& frame, std::uint32_t device_snap_steps, ImageS
     for (auto& [name, image] : images) {
         if (image.width != view.width || image.height != view.height) continue;
         image.undecided.resize(image.texels.size());
+        image.alternatives.clear();  // those that finer steps allow
         const std::size_t pixels = std::size_t(view.width) * view.height;
         for (std::size_t i = 0; i < near.size(); ++i)
             if (const std::size_t texel = image.layers == view.samples ? i : i % pixels; near[i]) image.undecided[texel] = true;

@@ -42,8 +42,8 @@ void scale_light(Accuracy&, double factor);
 std::size_t leave_out_not_numbers(const ReferenceImage& got, ReferenceImage& wanted);
 /// Why nothing can be judged, where so many are all texels; `of` names them, "sample".
 std::string nothing_but_not_numbers(std::size_t count, std::string_view of);
-/// Whether every texel is left out.
-bool is_all_left_out(const ReferenceImage&);
+/// Of the texels.
+double undecided_share(const ReferenceImage&);
 
 /// The technique's model on the stage's inputs, in double.
 ImageSet run_model(const JudgedStage&);

@@ -3,7 +3,8 @@
 #include <bit>
 #include <cmath>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/view.h"
 #include "passes/scene/pre_exposure.h"
 
 namespace strata {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/nearest_name.h"
 #include "replay/gpu/device_memory.h"
 #include "replay/gpu/host_timer.h"

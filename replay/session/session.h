@@ -146,12 +146,14 @@ struct WorstTexel {
 
 /// How a technique fared on a frame against its model (implementation error) and the stage's truth (technique error).
 struct Accuracy {
-    std::vector<Metric> technique_errors;    ///< from the stage's judge
-    std::optional<double> flip;              ///< mean of FLIP against the truth, of a stage that makes radiance
-    std::vector<Metric> touched;             ///< the same over the samples that the truth changes, of a stage that makes radiance
-    double touched_share = 1;                ///< of all samples
-    std::size_t not_numbers = 0;             ///< texels that are NaN in the result and in the truth: left out of these errors
-    double undecided_share = 0;              ///< of samples, from errors against the truth: rounding decides what they show
+    std::vector<Metric> technique_errors;  ///< from the stage's judge
+    std::optional<double> flip;            ///< mean of FLIP against the truth, of a stage that makes radiance
+    std::vector<Metric> touched;           ///< the same over the samples that the truth changes, of a stage that makes radiance
+    double touched_share = 1;              ///< of all samples
+    std::size_t not_numbers = 0;           ///< texels that are NaN in the result and in the truth: left out of these errors
+    double undecided_share = 0;  ///< of samples: rounding decides their truth, their error is the distance to all it allows
+    std::optional<Metric> undecided_bound;   ///< by how much the stage's error, so named, may be too small for it
+    double unjudged_share = 0;               ///< of samples, from errors against the truth: what rounding allows is not known
     double model_rmse = 0, model_worst = 0;  ///< relative, see Tolerance
     std::size_t compared = 0, undecided = 0, trivial = 0;  ///< texels
     WorstTexel worst;

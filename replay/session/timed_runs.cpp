@@ -2,7 +2,8 @@
 #include <algorithm>
 #include <functional>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/particles.h"
 #include "passes/scene/object_order.h"
 #include "passes/stages.h"
 #include "passes/technique.h"

@@ -7,7 +7,8 @@
 #include <gmock/gmock.h>
 
 #include "capture_format/codec/encode_frame.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
 #include "tests/1_capture/sample_frames.h"
 
 namespace strata {

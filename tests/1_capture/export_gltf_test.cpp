@@ -6,8 +6,15 @@
 
 #include "capture_format/export/gltf.h"
 #include "capture_format/export/gltf_glass.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/no_index.h"
+#include "capture_format/frame/texture.h"
 #include "capture_format/import/gltf.h"
+#include "capture_format/view.h"
 #include "captures/scenarios.h"
 #include "tests/1_capture/sample_frames.h"
 

@@ -2,7 +2,11 @@
 
 #include <gmock/gmock.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/particles.h"
 #include "capture_format/frame_features.h"
 #include "tests/1_capture/sample_frames.h"
 

@@ -5,7 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "capture_format/enum_names.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/light_volume.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/texture.h"
 #include "tests/1_capture/sample_frames.h"
 #include "tests/support/errors.h"
 

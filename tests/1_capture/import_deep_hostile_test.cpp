@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/import/deep.h"
 #include "tests/1_capture/temporary_file.h"
 #include "tests/support/deep_exr.h"

@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/mesh.h"
 #include "tests/support/errors.h"

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
 #include "capture_format/import/gltf_animation.h"
 #include "tests/support/errors.h"
 #include "tests/support/gltf_text.h"

@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/mesh.h"
 #include "capture_format/import/gltf_files.h"

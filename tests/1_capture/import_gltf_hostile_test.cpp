@@ -4,9 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
 #include "capture_format/frame/draw.h"
 #include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
 #include "capture_format/import/gltf.h"
 #include "tests/support/errors.h"
 #include "tests/support/gltf_text.h"

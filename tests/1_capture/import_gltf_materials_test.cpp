@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "capture_format/export/png.h"
-#include "capture_format/frame.h"
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/material.h"
 #include "capture_format/import/gltf_materials.h"

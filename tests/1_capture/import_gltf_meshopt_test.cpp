@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 #include <meshoptimizer.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
 #include "capture_format/import/gltf_meshopt.h"
 #include "tests/support/errors.h"
 #include "tests/support/gltf_text.h"

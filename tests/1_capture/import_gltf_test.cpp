@@ -9,10 +9,17 @@
 #include <gtest/gtest.h>
 
 #include "capture_format/codec/texture_mips.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/no_index.h"
+#include "capture_format/frame/texture.h"
 #include "capture_format/import/gltf.h"
 #include "capture_format/import/seen.h"
 #include "capture_format/reader.h"
+#include "capture_format/view.h"
 #include "tests/support/errors.h"
 #include "tests/support/gltf_text.h"
 

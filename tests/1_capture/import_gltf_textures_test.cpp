@@ -8,7 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "capture_format/export/png.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/texture.h"
 #include "capture_format/import/gltf.h"
 #include "tests/support/errors.h"
 #include "tests/support/gltf_text.h"

@@ -4,7 +4,16 @@
 #include <bit>
 #include <limits>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/light_volume.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
+#include "capture_format/frame/stage_choice.h"
+#include "capture_format/frame/texture.h"
+#include "capture_format/frame/weather.h"
 
 namespace strata {
 namespace {

@@ -3,8 +3,9 @@
 
 #include <gmock/gmock.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/reader.h"
+#include "capture_format/view.h"
 #include "tests/1_capture/sample_frames.h"
 #include "tests/support/errors.h"
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/no_index.h"
 #include "captures/scenarios.h"
 #include "passes/reference/blockers.h"
 #include "passes/reference/fragments.h"

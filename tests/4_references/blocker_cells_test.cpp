@@ -8,7 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/reference/blockers.h"
 #include "passes/scene/light_blockers.h"
 #include "tests/support/blocker_cases.h"

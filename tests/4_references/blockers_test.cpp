@@ -7,7 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "captures/scenarios.h"
 #include "passes/reference/blockers.h"
 #include "passes/reference/fragments.h"

@@ -6,7 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
 #include "capture_format/import/deep.h"
 #include "capture_format/reader.h"
 #include "passes/reference/fragments.h"

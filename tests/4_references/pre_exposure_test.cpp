@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/particles.h"
 #include "captures/scenarios.h"
 #include "passes/reference/white_radiance.h"
 #include "passes/scene/pre_exposure.h"

@@ -8,7 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
 #include "capture_format/frame_features.h"
 #include "captures/scenarios.h"
 #include "passes/reference/fragments.h"

@@ -64,4 +64,23 @@ TEST(visible_set, judges_holes_before_waste) {
     EXPECT_EQ(metrics[3].value, 2);
 }
 
+/// The quad behind ends .004 pixel before the middle of a pixel beside the one in front: rounding may show it there.
+TEST(visible_set, takes_a_draw_that_rounding_may_show_neither_for_hidden_nor_for_seen) {
+    Frame frame = tiny::frame(16, 16);
+    tiny::add_quad(frame, {4, 4, 9.496, 8}, 5);
+    tiny::add_quad(frame, {3, 3, 9, 9}, 2);
+    const ImageSet before;
+    const StageInput input{frame, before};
+    const ImageSet truth = culling_truth(input);
+    EXPECT_TRUE(truth.at("visible").undecided[0]);
+    EXPECT_FALSE(truth.at("visible").undecided[1]);
+    ImageSet drawn = truth;
+    for (const double is_drawn : {0., 1.}) {
+        drawn.at("visible").texels[0].x = is_drawn;
+        const auto metrics = culling_judge(drawn, truth, input);
+        EXPECT_EQ(metrics[0].value, 0) << "wrongly hidden";
+        EXPECT_EQ(metrics[1].value, 0) << "needlessly drawn";
+    }
+}
+
 }  // namespace strata

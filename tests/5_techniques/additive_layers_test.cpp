@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/particles.h"
 #include "captures/cards.h"
 #include "passes/frame_images.h"
 #include "replay/images/image_io.h"

@@ -9,7 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/particles.h"
 #include "passes/graph/graph.h"
 #include "passes/registry.h"
 #include "passes/scene/scene_facts.h"

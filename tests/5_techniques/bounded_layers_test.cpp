@@ -7,7 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/particles.h"
 #include "captures/cards.h"
 #include "passes/frame_images.h"
 #include "passes/transparency/a_buffer/model.h"

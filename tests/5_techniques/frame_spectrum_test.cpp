@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/light_volume.h"
+#include "capture_format/frame/material.h"
 #include "passes/lighting/spectra.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/shaders/light_features.shared.h"

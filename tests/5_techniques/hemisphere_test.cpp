@@ -5,7 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/registry.h"
 #include "passes/technique.h"
 #include "tests/support/agreement.h"

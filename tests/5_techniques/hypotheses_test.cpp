@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "captures/cards.h"
 #include "captures/hard_cases.h"
 #include "passes/frame_images.h"

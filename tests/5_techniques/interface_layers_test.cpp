@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
 #include "captures/cards.h"
 #include "passes/frame_images.h"
 #include "tests/support/session.h"

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
 #include "captures/cards.h"
 #include "passes/registry.h"
 #include "tests/support/agreement.h"

@@ -7,7 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/lens.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/material.h"
 #include "passes/frame_images.h"
 #include "passes/lens/bloom/bloom_model.h"
 #include "passes/lens/exposure/exposure_model.h"

@@ -2,7 +2,7 @@
 // mixed in twice as much would give the same picture.
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "captures/cards.h"
 #include "passes/registry.h"
 #include "passes/technique.h"

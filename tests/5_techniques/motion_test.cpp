@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
 #include "captures/cards.h"
 #include "passes/frame_images.h"
 #include "passes/reference/shade.h"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "captures/scenarios.h"
 #include "passes/culling/judge.h"
 #include "passes/culling/truth.h"

@@ -9,7 +9,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/particles.h"
 #include "captures/scenarios.h"
 #include "passes/frame_images.h"
 #include "passes/registry.h"

@@ -5,7 +5,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/texture.h"
 #include "captures/cards.h"
 #include "passes/frame_images.h"
 #include "passes/gbuffer/coverage/coverage.shared.h"

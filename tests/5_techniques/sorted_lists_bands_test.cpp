@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/particles.h"
 #include "passes/frame_images.h"
 #include "passes/reference/fragments.h"
 #include "tests/support/session.h"

@@ -2,7 +2,15 @@
 // out of sight, makes them general and must not change a bit.
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/no_index.h"
+#include "capture_format/frame/particles.h"
+#include "capture_format/frame/texture.h"
+#include "capture_format/view.h"
 #include "passes/frame_images.h"
 #include "passes/scene/material_uses.h"
 #include "passes/scene/scene_facts.h"

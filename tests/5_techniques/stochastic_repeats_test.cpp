@@ -1,4 +1,8 @@
 // transparency/stochastic on a device: noise that is the same in every run, and in however many bands of rows it is made.
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "passes/frame_images.h"
@@ -6,6 +10,8 @@
 #include "passes/technique.h"
 #include "tests/support/agreement.h"
 #include "tests/support/session.h"
+#include "tests/support/truths.h"
+#include "tests/support/z_test.h"
 
 namespace strata {
 namespace {
@@ -42,6 +48,67 @@ TEST(StochasticNoise, FallsWithTheRootOfTheNumberOfSubsamples) {
         return must(session_of_scenarios().judge(request, Stage::transparency, Against::truth)).technique_errors.front().value;
     };
     EXPECT_NEAR(error("samples=4") / error("samples=64"), 4, .6);
+}
+
+/// Colors of all samples in one run with a seed.
+std::vector<double> colors(const std::vector<std::string>& sets, std::uint32_t seed) {
+    Request request = on_scenario("glass_and_smoke");
+    std::vector<std::string> all = sets;
+    all.push_back(fmt::format("seed={}", seed));
+    request.choices = chosen({stochastic}, all);
+    request.outputs = {"color"};
+    const ReferenceImage image = in_double(must(session_of_scenarios().run(request)).images.at("color"));
+    std::vector<double> values;
+    for (const glm::dvec4& texel : image.texels) values.insert(values.end(), {texel.x, texel.y, texel.z});
+    return values;
+}
+
+/// Of the samples whose fragments are certain; the others are as in the run.
+std::vector<double> true_colors(const std::vector<double>& run) {
+    const ReferenceImage& truth = truth_of(Stage::transparency, on_scenario("glass_and_smoke")).at("color");
+    std::vector<double> values = run;
+    for (std::size_t i = 0; i < truth.texels.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            if (!truth.undecided[i]) values[3 * i + c] = truth.texels[i][static_cast<glm::length_t>(c)];
+    return values;
+}
+
+// Half floats of color, and of what is summed.
+constexpr double stored_rounding = 0x1p-10;
+constexpr double least_probable = .01;
+
+TEST(StochasticNoise, HasTheTruthAsItsMeanInEveryColorOfEverySample) {
+    for (const char* subset : {"subset=bernoulli", "subset=stratified"})
+        for (const char* mode : {"mode=layered", "mode=depth_based"}) {
+            ZTest test;
+            std::vector<double> wanted;
+            for (std::uint32_t seed = 0; seed < 32; ++seed) {
+                const auto run = colors({mode, subset, "correction=none", "samples=64"}, seed);
+                if (seed == 0) wanted = true_colors(run);
+                test.add(run);
+            }
+            EXPECT_GT(test.probability(wanted, stored_rounding), least_probable) << mode << ' ' << subset;
+        }
+}
+
+/// The test above would notice a bias of half a percent, with any seeds.
+TEST(StochasticNoise, WithABiasOfHalfAPercentIsToldFromTheTruth) {
+    int noticed = 0, false_alarms = 0;
+    for (std::uint32_t turn = 0; turn < 20; ++turn) {
+        ZTest fair, biased;
+        std::vector<double> wanted;
+        for (std::uint32_t seed = 0; seed < 16; ++seed) {
+            std::vector<double> run = colors({"correction=none", "subset=bernoulli", "samples=64"}, 1000 + 16 * turn + seed);
+            if (seed == 0) wanted = true_colors(run);
+            fair.add(run);
+            for (double& value : run) value *= 1.005;
+            biased.add(run);
+        }
+        noticed += biased.probability(wanted, stored_rounding) < least_probable;
+        false_alarms += fair.probability(wanted, stored_rounding) < least_probable;
+    }
+    EXPECT_EQ(noticed, 20);
+    EXPECT_LE(false_alarms, 2);
 }
 
 /// Every setting's combination is the model's, not only each on its own.

@@ -7,7 +7,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/view.h"
 #include "captures/scenarios.h"
 #include "passes/frame_images.h"
 #include "passes/gbuffer/codes.h"

@@ -1,7 +1,7 @@
 // Where a G-buffer's attributes are shaded: at the pixel's center, for all samples of a triangle at once, or at every sample.
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/frame_images.h"
 #include "passes/registry.h"
 #include "tests/support/agreement.h"

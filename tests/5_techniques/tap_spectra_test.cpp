@@ -9,7 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "captures/scenarios.h"
 #include "passes/frame_images.h"
 #include "passes/indirect/lpv/grids_model.h"

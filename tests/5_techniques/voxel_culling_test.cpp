@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/particles.h"
+#include "capture_format/view.h"
 #include "passes/registry.h"
 #include "passes/stages.h"
 #include "passes/technique.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "captures/cards.h"
 #include "passes/frame_images.h"
 #include "tests/5_techniques/voxel_name.h"

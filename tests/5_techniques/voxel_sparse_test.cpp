@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/registry.h"
 #include "passes/stages.h"
 #include "passes/technique.h"

@@ -5,7 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
 #include "captures/cards.h"
 #include "passes/frame_images.h"
 #include "passes/registry.h"

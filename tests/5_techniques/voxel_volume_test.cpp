@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/view.h"
 #include "passes/frame_images.h"
 #include "passes/registry.h"
 #include "passes/stages.h"

@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "captures/cards.h"
 #include "passes/reference/fragments.h"
 #include "passes/stage_input.h"
@@ -220,6 +220,33 @@ TEST(Judge, MeasuresWhatTheStageTouchesAlsoAlone) {
     EXPECT_TRUE(judged.against_truth(judged.model).touched.empty()) << "nothing is drawn over";
 }
 
+/// One of twelve samples of 2 is 3, or 1 as far as rounding decides.
+TEST(Judge, TakesTheDistanceToAllThatRoundingAllows) {
+    Judged judged;
+    ImageSet truth = judged.model;
+    ReferenceImage& color = truth.at("color");
+    color.at(1, 0) = glm::dvec4(3);
+    color.undecided.assign(color.texels.size(), false);
+    color.undecided[color.index(1, 0, 0)] = true;
+    color.alternatives = {{color.index(1, 0, 0), glm::dvec4(1)}};
+    const auto worst = [](const Accuracy& accuracy) {
+        return std::ranges::find(accuracy.technique_errors, "worst", &Metric::name)->value;
+    };
+    const Accuracy between = judged.against_truth(truth);
+    EXPECT_EQ(worst(between), 0);
+    EXPECT_DOUBLE_EQ(between.undecided_share, 1. / 12);
+    EXPECT_EQ(between.unjudged_share, 0);
+    ASSERT_TRUE(between.undecided_bound);
+    EXPECT_EQ(between.undecided_bound->name, "relative rmse");
+    EXPECT_DOUBLE_EQ(between.undecided_bound->value, 2 / std::sqrt(12.) / 2);
+    judged.got().at(1, 0) = glm::dvec4(.25);
+    EXPECT_DOUBLE_EQ(worst(judged.against_truth(truth)), .75);
+    judged.got().at(1, 0) = glm::dvec4(7);
+    EXPECT_DOUBLE_EQ(worst(judged.against_truth(truth)), 4);
+    judged.got().at(1, 0) = glm::dvec4(not_a_number);
+    EXPECT_EQ(worst(judged.against_truth(truth)), HUGE_VAL);
+}
+
 TEST(Judge, SaysHowManySamplesItLeavesOut) {
     Judged judged;
     ImageSet truth = judged.model;
@@ -229,6 +256,7 @@ TEST(Judge, SaysHowManySamplesItLeavesOut) {
     color.undecided[color.index(1, 0, 0)] = true;
     const Accuracy some = judged.against_truth(truth);
     EXPECT_DOUBLE_EQ(some.undecided_share, 1. / 12);
+    EXPECT_DOUBLE_EQ(some.unjudged_share, 1. / 12) << "what else it may be is not known";
     EXPECT_DOUBLE_EQ(some.touched_share, 2. / 12) << "also what is left out is touched";
     color.undecided.assign(color.texels.size(), true);
     const Accuracy none = judged.against_truth(truth);

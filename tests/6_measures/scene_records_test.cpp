@@ -1,7 +1,10 @@
 // The records a scene becomes on the device are relative to the eye: where in the world a frame was recorded does not matter.
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/particles.h"
 #include "captures/scenarios.h"
 #include "passes/scene/scene_facts.h"
 #include "replay/scene/scene_records.h"

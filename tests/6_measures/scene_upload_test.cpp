@@ -2,7 +2,11 @@
 // again.
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
 #include "captures/scenarios.h"
 #include "passes/scene/scene_facts.h"
 #include "replay/scene/device_scene.h"

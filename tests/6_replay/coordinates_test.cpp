@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/view.h"
 #include "passes/frame_images.h"
 #include "passes/reference/raster.h"
 #include "tests/support/session.h"

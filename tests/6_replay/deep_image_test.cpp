@@ -6,7 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/import/deep.h"
 #include "passes/frame_images.h"
 #include "passes/registry.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "captures/scenarios.h"
 #include "passes/shader_interop.h"
 #include "replay/bench/device_bench.h"

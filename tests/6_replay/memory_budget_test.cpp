@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/frame_images.h"
 #include "replay/images/image_io.h"
 #include "tests/support/errors.h"

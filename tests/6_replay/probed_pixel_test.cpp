@@ -1,7 +1,7 @@
 // A probe replays no more of the frame than what decides a pixel's fragments: what it finds is what the whole frame gives.
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/reference/ordering.h"
 #include "passes/registry.h"
 #include "replay/probe/probe.h"

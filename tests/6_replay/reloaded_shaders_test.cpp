@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/frame_images.h"
 #include "passes/graph/shader_sources.h"
 #include "replay/glsl/compile_glsl.h"

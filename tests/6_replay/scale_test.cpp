@@ -4,7 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/no_index.h"
+#include "capture_format/frame/particles.h"
+#include "capture_format/view.h"
 #include "passes/frame_images.h"
 #include "passes/scene/view_space.h"
 #include "passes/shaders/scene/no_index.shared.h"

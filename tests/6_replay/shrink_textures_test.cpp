@@ -2,7 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "capture_format/codec/texture_bytes.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/texture.h"
 #include "replay/scene/shrink_textures.h"
 
 namespace strata {

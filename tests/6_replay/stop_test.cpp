@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/reference/estimated_image.h"
 #include "passes/registry.h"
 #include "passes/technique.h"

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/texture.h"
 #include "captures/cards.h"
 #include "passes/frame_images.h"
 #include "replay/images/image_io.h"

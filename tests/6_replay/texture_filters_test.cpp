@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/texture.h"
 #include "captures/cards.h"
 #include "replay/images/image_io.h"
 #include "tests/support/session.h"

@@ -4,7 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/particles.h"
+#include "capture_format/frame/texture.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
 #include "ui/frame/capture_tables.h"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <glm/glm.hpp>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/srgb.h"
 #include "passes/stages.h"
 #include "passes/technique.h"

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/registry.h"
 #include "passes/technique.h"
 #include "passes/transparency/sample_blend.h"

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "replay/images/image_io.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/7_tool/process.h"

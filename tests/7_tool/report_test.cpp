@@ -8,7 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/view.h"
 #include "captures/scenarios.h"
 #include "passes/frame_images.h"
 #include "passes/reference/difference.h"
@@ -271,6 +272,27 @@ TEST(Report, CountsWhatAStageTouchesInAnyUnitOfLight) {
     }
     EXPECT_LT(shares[0], 1);
     EXPECT_THAT(shares, testing::Each(shares[0]));
+}
+
+/// The smoke's errors in the picture: a pixel that rounding may have otherwise is judged.
+TEST(PictureErrors, CountPixelsThatRoundingDecidesWithWhatItAllows) {
+    std::vector<Frame> frames = scenario_frames("smoke_grenade");
+    frames[0].view.width = 64, frames[0].view.height = 36;
+    const auto session = session_of(std::move(frames));
+    ReportRequest request{.techniques = {"alpha_blend"}, .repeats = 1};
+    const Report of_stage = must(make_report(*session, request));
+    request.error_at = ErrorAt::picture;
+    const Report of_picture = must(make_report(*session, request));
+    for (const Report* report : {&of_stage, &of_picture}) {
+        const Accuracy& accuracy = report->rows.at(0).accuracy;
+        EXPECT_GT(accuracy.undecided_share, 0);
+        EXPECT_EQ(accuracy.unjudged_share, 0);
+        ASSERT_TRUE(accuracy.undecided_bound);
+        EXPECT_EQ(accuracy.undecided_bound->name, report == &of_stage ? "relative rmse" : "display rmse");
+        EXPECT_LT(accuracy.undecided_bound->value, .01);
+        EXPECT_THAT(as_text(*report), HasSubstr("their error is the distance to what it allows, which hides at most"));
+        EXPECT_THAT(as_text(*report), Not(HasSubstr("left out of the errors")));
+    }
 }
 
 TEST(PictureErrors, OfPixelsThatRoundingLeavesOpenAreNotZeros) {

@@ -13,7 +13,7 @@
 
 #include "capture_format/container/container.h"
 #include "capture_format/container/whole_file.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/reader.h"
 #include "captures/scenarios.h"
 #include "replay/cli/tool.h"

@@ -2,7 +2,10 @@
 // loaded or first asked for, and declaring it again costs as much as it has draws.
 #include <benchmark/benchmark.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
 #include "passes/registry.h"
 #include "passes/stages.h"
 #include "passes/technique.h"

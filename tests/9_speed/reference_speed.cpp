@@ -3,7 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/reference/fragments.h"
 #include "tests/support/session.h"
 

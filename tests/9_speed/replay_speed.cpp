@@ -1,7 +1,7 @@
 // From a frame to a picture: records, declaration, plan, and whole replays on the first device (lavapipe where there is no GPU).
 #include <benchmark/benchmark.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/registry.h"
 #include "passes/stages.h"
 #include "passes/technique.h"

@@ -1,5 +1,5 @@
 // The deep EXR importer under libFuzzer. Its files have no checksums: mutations reach everything but what is deflated.
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/import/deep.h"
 #include "capture_format/reader.h"
 #include "tests/fuzz/walk_frame.h"

@@ -1,5 +1,5 @@
 // The glTF importer under libFuzzer: .gltf and .glb in memory, which opens no other file.
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/import/gltf.h"
 #include "capture_format/reader.h"
 #include "tests/fuzz/walk_frame.h"

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <random>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/reader.h"
 #include "tests/fuzz/mutate_record.h"
 #include "tests/fuzz/walk_frame.h"

@@ -1,7 +1,8 @@
 // Writes the first inputs of the reader's fuzzer into a folder. After the format has changed: run it, fuzz for a while, and put
 // what -merge=1 keeps into corpus/reader.
 #include "capture_format/container/whole_file.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
 #include "tests/1_capture/sample_frames.h"
 #include "tests/fuzz/frame_records.h"
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 
 namespace strata {
 

@@ -1,6 +1,6 @@
 #include "tests/support/one_pixel.h"
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 
 namespace strata {
 

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
 #include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
 #include "capture_format/frame/mesh.h"
+#include "capture_format/frame/no_index.h"
 #include "capture_format/frame/texture.h"
+#include "capture_format/view.h"
 
 namespace strata {
 namespace {

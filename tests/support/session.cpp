@@ -1,6 +1,6 @@
 #include "tests/support/session.h"
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "captures/scenarios.h"
 #include "passes/frame_images.h"
 #include "passes/technique.h"

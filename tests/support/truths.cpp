@@ -3,7 +3,7 @@
 #include <map>
 #include <tuple>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/stages.h"
 
 namespace strata {

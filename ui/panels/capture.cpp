@@ -1,7 +1,7 @@
 // What the frame is made of, as tables. A draw or an emitter that is selected is outlined in the picture.
 #include <algorithm>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "replay/plural.h"
 #include "ui/frame/capture_tables.h"
 #include "ui/frame/counter_rows.h"

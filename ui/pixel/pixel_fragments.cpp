@@ -1,6 +1,6 @@
 #include "ui/pixel/pixel_fragments.h"
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/transparency/sample_blend.h"
 #include "replay/session/drawn_by.h"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capture_format/frame.h"
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/light.h"
 #include "passes/frame_images.h"

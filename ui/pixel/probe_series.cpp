@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capture_format/frame.h"
 #include "capture_format/frame/frame.h"
 #include "passes/technique.h"
 #include "ui/window/theme.h"

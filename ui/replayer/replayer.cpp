@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/stage_choice.h"
 #include "capture_format/reader.h"
 #include "passes/frame_images.h"
 #include "passes/scene/scene_facts.h"

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <sstream>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/registry.h"
 #include "passes/technique.h"
 #include "replay/plural.h"

@@ -9,7 +9,10 @@
 #include <variant>
 #include <vector>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/no_index.h"
+#include "capture_format/frame/weather.h"
 #include "passes/combine/truth.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"

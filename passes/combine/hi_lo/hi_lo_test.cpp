@@ -3,7 +3,9 @@
 
 #include <cmath>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/particles.h"
 #include "passes/combine/formulas.h"
 #include "passes/stage_input.h"
 #include "passes/technique.h"

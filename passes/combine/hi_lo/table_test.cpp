@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
 #include "passes/lighting/material_table_model.h"
 #include "passes/stage_input.h"
 #include "passes/technique.h"

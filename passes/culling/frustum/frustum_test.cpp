@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
 #include "passes/stage_input.h"

@@ -9,7 +9,11 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/view.h"
 #include "captures/scenarios.h"
 #include "passes/culling/judge.h"
 #include "passes/culling/truth.h"

@@ -1,7 +1,7 @@
 // Facts of shading every sample, and of what the stage calls an edge.
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/edges/judge.h"
 #include "passes/edges/truth.h"
 #include "passes/stage_input.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/edges/truth.h"
 #include "passes/stage_input.h"
 #include "passes/technique.h"

@@ -1,7 +1,7 @@
 // Facts of four depths on a plane, on the model: docs/algorithms/deferred.md 3.2, D4.
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/reference/shade.h"
 #include "passes/stage_input.h"
 #include "passes/technique.h"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/film/grain_model.h"
 #include "passes/stage_input.h"
 #include "passes/technique.h"

@@ -7,7 +7,10 @@
 #include <cmath>
 
 #include "capture_format/codec/texture_mips.h"
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/no_index.h"
+#include "capture_format/frame/texture.h"
 #include "captures/scenarios.h"
 #include "passes/gbuffer/coverage/mask_tests.h"
 #include "passes/reference/textures.h"

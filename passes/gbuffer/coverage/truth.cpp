@@ -7,7 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/pcg.h"
 #include "passes/reference/raster.h"

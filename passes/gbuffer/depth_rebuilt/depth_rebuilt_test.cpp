@@ -1,7 +1,7 @@
 // Facts of the layout with rebuilt depth: the errors of normals of docs/algorithms/deferred.md 2.5, and depth at the sample.
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/gbuffer/depth_rebuilt/model.h"
 #include "passes/gbuffer/layout_model.h"
 #include "tests/support/normal_errors.h"

@@ -3,7 +3,8 @@
 
 #include <set>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
 #include "passes/gbuffer/codes.h"
 #include "passes/gbuffer/wide/model.h"
 #include "passes/gbuffer/wide/wide.shared.h"

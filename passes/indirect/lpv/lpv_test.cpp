@@ -6,7 +6,12 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/light_volume.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
 #include "passes/indirect/lpv/injection/emission_model.h"
 #include "passes/indirect/lpv/injection/injection_model.h"
 #include "passes/indirect/lpv/injection/reflective_map_model.h"

@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/lens.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
 #include "passes/lens/lens.shared.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/lens/depth_of_field/focus_model.h"
 #include "passes/lens/depth_of_field/truth.h"
 #include "passes/lens/depth_of_field/xray_model.h"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/stage_input.h"
 #include "tests/support/one_pixel.h"
 

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/material.h"
 #include "passes/settings.h"
 #include "passes/stage_input.h"
 #include "tests/support/one_pixel.h"

@@ -4,7 +4,9 @@
 
 #include <numbers>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/material.h"
 #include "passes/lighting/brute_force/brute_force.shared.h"
 #include "passes/lighting/brute_force/light_buffer_model.h"
 #include "passes/reference/lights.h"

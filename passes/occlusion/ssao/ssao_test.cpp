@@ -7,7 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
 #include "passes/reference/shade.h"

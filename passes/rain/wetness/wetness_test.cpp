@@ -9,7 +9,10 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
 #include "capture_format/view.h"
 #include "passes/rain/formulas.h"
 #include "passes/rain/truth.h"

@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/scene/map_places.h"
 #include "passes/shadows/kernel.h"
 

@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
 #include "passes/scene/shadow_views.h"
 
 namespace strata::shadows {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
 #include "passes/scene/shadow_views.h"

@@ -9,7 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/shadow_use.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
 #include "passes/scene/scene_facts.h"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "captures/cards.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"

@@ -7,8 +7,9 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "capture_format/frame_features.h"
+#include "capture_format/view.h"
 #include "passes/stage_input.h"
 #include "passes/transparency/distortion/model.h"
 #include "passes/transparency/functions/tint_model.h"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
 #include "captures/scenarios.h"
 #include "passes/stage_input.h"
 #include "passes/transparency/functions/model.h"

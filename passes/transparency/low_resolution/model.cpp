@@ -2,8 +2,11 @@
 
 #include <utility>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/particles.h"
 #include "capture_format/frame_features.h"
+#include "capture_format/view.h"
 #include "passes/stage_input.h"
 
 namespace strata::transparency {

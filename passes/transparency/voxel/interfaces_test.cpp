@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/particles.h"
 #include "passes/reference/ordering.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/transparency/voxel/slices/depth_curve.h"

@@ -1,6 +1,9 @@
 #include "tests/1_capture/without_memory/two_frames.h"
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/texture.h"
 #include "tests/1_capture/sample_frames.h"
 
 namespace strata {

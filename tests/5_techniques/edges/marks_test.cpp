@@ -240,7 +240,7 @@ TEST(EdgesTruth, IsWhatTheTrianglesUnderTheSamplesSay) {
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const std::string_view scenario = info(Stage::edges).scenarios[i];
         const ReferenceImage truth = must(session->truth({.variant = {.frame = i}}, Stage::edges)).at("edges");
-        const auto surfaces = gbuffer::nearest_surfaces(frames[i], ShadeAt::pixel_center);
+        const auto surfaces = gbuffer::nearest_surfaces(frames[i], ShadeAt::pixel_center).nearest;
         const VisiblePoints visible = visible_points(frames[i], opaque_draws(frames[i]));
         std::array<std::uint32_t, 3> pixels{}, wrong{};
         for (std::uint32_t y = 0; y < truth.height; ++y)

@@ -6,7 +6,8 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "captures/scenarios.h"
 #include "passes/frame_images.h"
 #include "passes/registry.h"

@@ -1,7 +1,8 @@
 // Where the eye's place decides on which side of a blocker a cell's middle is.
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/indirect/lpv/kept/middles.h"
 
 namespace strata::indirect {

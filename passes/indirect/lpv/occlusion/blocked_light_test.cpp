@@ -6,7 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/indirect/lpv/injection/injection_model.h"
 #include "passes/indirect/lpv/occlusion/occlusion_model.h"
 #include "passes/indirect/reading_model.h"

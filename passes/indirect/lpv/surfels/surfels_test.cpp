@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
 #include "passes/indirect/lpv/injection/bounce_model.h"
 #include "passes/indirect/lpv/model.h"
 #include "passes/indirect/lpv/occlusion/fuzzy_model.h"

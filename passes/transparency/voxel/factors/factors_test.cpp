@@ -1,5 +1,9 @@
 // Facts about slices that hold products (docs/algorithms/transparency.md 6.4, first row of its table).
-#include "capture_format/frame.h"
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
 #include "passes/transparency/voxel/factors/model.h"
 #include "tests/support/one_pixel.h"
 

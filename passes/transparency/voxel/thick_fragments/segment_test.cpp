@@ -1,5 +1,6 @@
 // Facts about thick fragments (docs/algorithms/transparency.md 6.5, thick objects).
-#include "capture_format/frame.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/particles.h"
 #include "passes/transparency/voxel/thick_fragments/segment_model.h"
 
 #include <algorithm>
