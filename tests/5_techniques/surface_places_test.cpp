@@ -48,8 +48,9 @@ TEST(GBufferPlaces, TexturesAndNormalMapsAreTheSamplesToo) {
     }
 }
 
-/// At the rims of balls the pixel's center lies outside the triangle, and normals are extrapolated. There normals turn fastest from
-/// pixel to pixel, and the device snaps corners to 1/256 of one: samples beside a side are .034 degrees off, others below .02.
+/// At the rims of balls the pixel's center lies outside the triangle, and normals are extrapolated. There normals turn fastest
+/// from pixel to pixel, and the device snaps corners to 1/256 of one: samples beside a side are .034 degrees off, others below
+/// .02.
 TEST(GBufferPlaces, NormalsAtRimsAreThoseOfTheTruthAtTheSampleAlone) {
     const Accuracy center = judged("gbuffer/octahedral", "materials", "attributes=center", Against::truth),
                    sample = judged("gbuffer/octahedral", "materials", "attributes=sample", Against::truth);
