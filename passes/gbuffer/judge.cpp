@@ -44,8 +44,8 @@ Texel texel(const ImageSet& images, std::size_t i) {
 glm::dvec3 read_position(const Frame& frame, std::size_t i, const Texel& t) {
     const View& view = frame.view;
     const std::size_t pixel = i % (std::size_t(view.width) * view.height);
-    const glm::dvec2 corner(double(pixel % view.width), double(pixel / view.width));
-    const glm::dvec2 at = corner + 0.5 + offset_of_place_code(t.material.w);
+    const std::size_t column = pixel % view.width, row = pixel / view.width;
+    const glm::dvec2 at = glm::dvec2(column, row) + 0.5 + offset_of_place_code(t.material.w);
     return pixel_ray(frame, at.x, at.y) * t.normal.w;
 }
 

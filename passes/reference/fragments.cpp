@@ -161,12 +161,12 @@ struct FoundRow {
 
 // Of two triangles that continue each other across a side near the sample, one surely has it.
 void pair_neighbors(FoundRow& found, std::vector<NearMiss>& near_misses) {
-    for (const auto& [point, place] : found.inside) {
+    for (const auto& here : found.inside) {
         const auto neighbor = std::ranges::find_if(found.beside, [&](const auto& other) {
-            return !near_misses[other.second].instead_of && share_a_side(point, other.first);
+            return !near_misses[other.second].instead_of && share_a_side(here.first, other.first);
         });
         if (neighbor == found.beside.end()) continue;
-        Fragment& fragment = found.fragments[place];
+        Fragment& fragment = found.fragments[here.second];
         fragment.may_be_absent = false;
         near_misses[neighbor->second].instead_of = fragment.submission;
     }

@@ -27,12 +27,13 @@ bool off_by_a_step(const Frame& frame, const glm::dvec4& got, const glm::dvec4& 
     return false;
 }
 
-/// |a - b| / (|b| + .01) of the channel where that is largest (docs/algorithms/transparency.md 9.3). Below a radiance of .01 the
-/// absolute error takes over; what is not a number is as wrong as can be.
-double relative_error(const glm::dvec4& got, const glm::dvec4& wanted) {
+/// |a - b| / (|b| + .01) of the channel where that is largest (docs/algorithms/transparency.md 9.3), of radiance times exposure:
+/// below .01 the absolute error takes over, whatever the unit of light. What is not a number is as wrong as can be.
+double relative_error(const Frame& frame, const glm::dvec4& got, const glm::dvec4& wanted) {
+    const double dark = .01 / double(frame.view.exposure);
     double worst = 0;
     for (int c = 0; c < 3; ++c) {
-        const double error = std::abs(signed_error(got[c], wanted[c])) / (std::abs(wanted[c]) + .01);
+        const double error = std::abs(signed_error(got[c], wanted[c])) / (std::abs(wanted[c]) + dark);
         worst = std::max(worst, std::isnan(error) ? HUGE_VAL : error);
     }
     return worst;
@@ -48,7 +49,7 @@ std::vector<Metric> transparency_judge(const ImageSet& result, const ImageSet& t
     for (std::size_t i = 0; i < wanted.texels.size(); ++i) {
         if (!decided(got, wanted, i)) continue;
         if (off_by_a_step(input.frame, got.texels[i], wanted.texels[i])) ++off;
-        relative.push_back(relative_error(got.texels[i], wanted.texels[i]));
+        relative.push_back(relative_error(input.frame, got.texels[i], wanted.texels[i]));
     }
     std::ranges::sort(relative);
     const auto percent = [&](std::size_t samples) {

@@ -256,6 +256,20 @@ TEST(gbuffer_judge, takes_nan_for_an_infinite_error) {
     EXPECT_EQ(gbuffer_metrics(got, truth).at("coverage differs"), 1) << "a depth that is NaN is no surface";
 }
 
+/// Light where a quarter is .004 for .003, seen at an exposure of 1, and the same in units of a millionth.
+TEST(transparency_judge, gives_the_same_relative_errors_in_every_unit_of_light) {
+    for (const double unit : {1., 0x1p20, 0x1p-20}) {
+        ReferenceImage truth(4, 1, 1, glm::dvec4(.003 * unit)), got = truth;
+        got.texels[2] = glm::dvec4(.004 * unit);
+        Frame frame = tiny::frame(4, 1);
+        frame.view.exposure = float(1 / unit);
+        const Metrics metrics = by_name(transparency_judge({{"color", got}}, {{"color", truth}}, {frame, {}}));
+        EXPECT_NEAR(metrics.at("P99"), .001 / .013, 1e-12) << unit;
+        EXPECT_EQ(metrics.at("over 2 %"), 25) << unit;
+        EXPECT_EQ(metrics.at("over 10 %"), 0) << unit;
+    }
+}
+
 /// NaN is displayed as black: a black pixel of the truth must not excuse it.
 TEST(transparency_judge, takes_nan_for_wrong_wherever_it_is) {
     ReferenceImage truth(4, 1), got(4, 1);

@@ -18,9 +18,9 @@ namespace {
 
 constexpr const char* stochastic = "transparency/stochastic";
 
-std::vector<std::byte> color_of(Session& session, std::vector<std::string> sets) {
+std::vector<std::byte> color_of(Session& session, const std::vector<std::string>& sets) {
     session.forget_memo();
-    return must(session.run({.choices = chosen({stochastic}, std::move(sets)), .outputs = {"color"}})).images.at("color").texels;
+    return must(session.run({.choices = chosen({stochastic}, sets), .outputs = {"color"}})).images.at("color").texels;
 }
 
 TEST(StochasticNoise, IsTheSameInEveryRunAndAnotherWithAnotherSeed) {
