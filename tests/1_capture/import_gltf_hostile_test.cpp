@@ -251,7 +251,7 @@ TEST(HostileGltf, IndicesThatRestartAPrimitiveAreRefused) {
 }
 
 TEST(HostileGltf, OtherPicturesThanPngAndJpegNeverReachADecoder) {
-    const std::string gif = "GIF89a\1\0\1\0\0\0\0;", bmp = "BM" + std::string(60, '\1');
+    const std::string gif("GIF89a\1\0\1\0\0\0\0;", 14), bmp = "BM" + std::string(60, '\1');
     for (const std::string& picture : {gif, bmp}) {
         EXPECT_THAT(imported(with_image(fmt::format(R"("uri":"data:image/png;base64,{}")", base64(picture)), "")).warnings,
                     Contains(HasSubstr("PNG")));
