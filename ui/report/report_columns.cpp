@@ -131,13 +131,13 @@ std::vector<ReportColumn> columns_of(const Report& report) {
 }
 
 const ReportColumn& column_of(std::span<const ReportColumn> columns, ReportColumn::Kind kind, std::string_view label) {
-    const ReportColumn* first = nullptr;
+    assert(std::ranges::count(columns, kind, &ReportColumn::kind) > 0);  // a report with a measured row has an error and a time
+    const ReportColumn* first = &columns.front();
     for (const ReportColumn& column : columns) {
         if (column.kind != kind) continue;
         if (column.label == label) return column;
-        if (!first || (first->is_detail && !column.is_detail)) first = &column;
+        if (first->kind != kind || (first->is_detail && !column.is_detail)) first = &column;
     }
-    assert(first);  // a report with a measured row has an error and a time
     return *first;
 }
 

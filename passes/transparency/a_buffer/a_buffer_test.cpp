@@ -41,6 +41,7 @@ TEST(ABuffer, RoundsToTheNearestNumberOfItsFormats) {
 
 TEST(ABuffer, IsAsExactAsItsFormatsUpToNineLayersInAnyOrder) {
     std::vector<Fragment> fragments;
+    fragments.reserve(9);
     for (int i = 0; i < 9; ++i) fragments.push_back(layer(1 + i, .1 + .05 * i, 1. / (1 + i)));
     for (int turn = 0; turn < 9; ++turn) {
         std::rotate(fragments.begin(), fragments.begin() + 1, fragments.end());
