@@ -5,7 +5,7 @@
 #   ./build.sh test     build and run the tests; ./build.sh test all: also the whole product of techniques, scenarios and
 #                       choices, and every mutant
 #   ./build.sh format   check that clang-format would change no file
-#   ./build.sh tidy     run clang-tidy on the files that differ from the last landed commit, for at most 180 seconds; ./build.sh tidy 3600 for 3600
+#   ./build.sh tidy     run clang-tidy on the lines that differ from the last landed commit, for at most 180 seconds; ./build.sh tidy 3600 for 3600
 #   ./build.sh sanitize build with clang and run the tests of the capture format under address and undefined-behavior sanitizers, and print
 #                       which of its lines they run; ./build.sh sanitize all: every test that needs no device, and threads under theirs
 #   ./build.sh fuzz     build the fuzzers with clang and run each for 60 seconds, all at once; ./build.sh fuzz 600 for 600

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Runs clang-tidy (.clang-tidy) on the sources that differ from the last landed commit, and on a source for each header that does.
+# Runs clang-tidy (.clang-tidy) on the lines that differ from the last landed commit, and on a source for each header that does.
 #   tests/tidy.sh SECONDS    starts no file later than that: the order depends on the commit, so that every commit checks another part
 # The landed commit is the merge base with the branch's upstream, else with origin/main. Where that is HEAD, or there is neither: what is
-# not committed is checked, else what HEAD changed. Exit code 1: clang-tidy reports something in a file that differs.
+# not committed is checked, else what HEAD changed. Exit code 1: clang-tidy reports something in a line that differs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -38,9 +38,16 @@ printf '== clang-tidy: %s files %s; %s sources\n' "${#differing[@]}" "$against" 
 cmake --preset tidy >/dev/null
 ninja -C $build generated/capture_format/schema/capture_generated.h strata_ui_shaders >/dev/null
 
-# Findings are reported in files that differ alone; an empty filter lets all of the project through.
+# Findings are reported in lines that differ alone; an empty filter lets all of the project through.
 filter=
-[ -z "$base" ] || filter=$(printf ',{"name":"%s"}' "${differing[@]}")
+[ -z "$base" ] || filter=$(git diff -U0 --diff-filter=d "$base" -- '*.h' '*.cpp' | awk '
+    /^\+\+\+ b\// { name = substr($0, 7) }
+    /^@@ / {
+        split(substr($3, 2), added, ",")
+        count = added[2] == "" ? 1 : added[2]
+        if (count > 0) lines[name] = lines[name] sprintf(",[%d,%d]", added[1], added[1] + count - 1)
+    }
+    END { for (name in lines) printf ",{\"name\":\"%s\",\"lines\":[%s]}", name, substr(lines[name], 2) }')
 export deadline=$(($(date +%s) + seconds)) filter="${filter:+[${filter#,}]}" build
 log=$(mktemp -d)
 trap 'rm -rf "$log"' EXIT
