@@ -1,4 +1,4 @@
-// What frames do beside holding values: they are made, copied and destroyed where all their types are known. Axes of AddressMode.
+// Special members of Frame, where all types of its lists are known, and the axes of AddressMode.
 #include "capture_format/frame.h"
 
 #include <array>

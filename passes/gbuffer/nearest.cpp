@@ -17,7 +17,7 @@ glm::dvec4 emitted(const Frame& frame, const SurfacePoint& p) {
 
 constexpr std::array<std::string_view, 5> texel_images = {"surface_normal", "surface_color", "surface_material", "emission",
                                                           "depth_layers"};
-/// Of one sample, in those images.
+/// One sample's texels in these images.
 using Texels = std::array<glm::dvec4, texel_images.size()>;
 
 Texels texels_of(const Frame& frame, const NearestSurface& s) {

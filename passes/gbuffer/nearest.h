@@ -18,7 +18,7 @@ struct NearestSurface {
     glm::dvec2 offset{0};    ///< from the pixel's center to where the position lies, in pixels
 };
 
-/// What else a sample may show where rounding decides.
+/// A surface that a sample may show instead of its nearest, as far as rounding decides.
 struct RivalSurface {
     std::size_t texel = 0;
     NearestSurface surface;

@@ -159,13 +159,17 @@ struct FoundRow {
     std::vector<std::pair<RasterPoint, std::size_t>> inside, beside;
 };
 
-// Of two triangles that continue each other across a side near the sample, one surely has it.
+// Pairs near misses with the fragments whose triangles continue theirs across a side near the sample: one of both is surely
+// there.
 void pair_neighbors(FoundRow& found, std::vector<NearMiss>& near_misses) {
+    const auto slot_of = [&](const auto& other) { return near_misses[other.second].slot; };
+    std::ranges::stable_sort(found.beside, {}, slot_of);
     for (const auto& here : found.inside) {
-        const auto neighbor = std::ranges::find_if(found.beside, [&](const auto& other) {
+        const auto of_sample = std::ranges::equal_range(found.beside, found.slots[here.second], {}, slot_of);
+        const auto neighbor = std::ranges::find_if(of_sample, [&](const auto& other) {
             return !near_misses[other.second].instead_of && share_a_side(here.first, other.first);
         });
-        if (neighbor == found.beside.end()) continue;
+        if (neighbor == of_sample.end()) continue;
         Fragment& fragment = found.fragments[here.second];
         fragment.may_be_absent = false;
         near_misses[neighbor->second].instead_of = fragment.submission;

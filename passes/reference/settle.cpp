@@ -25,4 +25,10 @@ double settle(const ReferenceImage& got, ReferenceImage& truth) {
     return std::sqrt(squared_widths / (3 * double(std::max<std::size_t>(1, truth.texels.size()))));
 }
 
+std::vector<bool> has_alternatives(const ReferenceImage& image) {
+    std::vector<bool> has(image.texels.size());
+    for (const Alternative& other : image.alternatives) has[other.texel] = true;
+    return has;
+}
+
 }  // namespace strata

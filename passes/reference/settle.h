@@ -1,6 +1,8 @@
 // Truths that hang on rounding: what a result is compared with.
 #pragma once
 
+#include <vector>
+
 #include "passes/reference/image.h"
 
 namespace strata {
@@ -10,5 +12,8 @@ namespace strata {
 /// stay undecided. Returns how much of an error that can hide: the root mean square of the intervals' widths over all texels and
 /// channels, 0 wide where a texel is decided.
 double settle(const ReferenceImage& got, ReferenceImage& truth);
+
+/// Whether each texel has any.
+std::vector<bool> has_alternatives(const ReferenceImage&);
 
 }  // namespace strata

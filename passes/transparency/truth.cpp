@@ -42,7 +42,7 @@ glm::dvec2 exact_distortion(std::span<const Fragment> fragments) {
 
 namespace {
 
-/// What may be at one place of the order: fragments of which one is there, or none.
+/// One place of the order: fragments of which one is there, or none.
 struct Place {
     std::vector<const Fragment*> either;
     bool or_none = false;
@@ -66,7 +66,7 @@ std::vector<Place> places_of(std::span<const Fragment> fragments, std::span<cons
     return places;
 }
 
-/// What a fragment does to what passes through it: own + through * behind, radiance or an offset.
+/// Effect of a fragment on the radiance or the offset behind it: own + through * behind.
 struct Effect {
     glm::dvec3 own{0}, through{1};
 };
@@ -77,7 +77,7 @@ Effect on_offset(const Fragment& f) {
     return {glm::dvec3(f.distortion, 0), glm::dvec3(transparency::luminance(f.transmittance))};
 }
 
-/// What passes a fragment rises with what is behind it, so that the ends of an interval become its ends.
+/// Radiance through a fragment rises with the radiance behind it, and so do offsets: ends of an interval become ends.
 RadianceInterval seen_through(const Place& place, EffectOf effect_of, const RadianceInterval& behind) {
     RadianceInterval seen = behind;
     bool is_first = !place.or_none;
@@ -140,7 +140,7 @@ std::vector<double> turns_of_light(double low, double high, std::uint32_t at, st
 
 constexpr std::size_t most_turns = 16;
 
-/// What is seen behind a sample's fragments, which may bend light; nothing where that may be anywhere.
+/// Radiance behind a sample's fragments, which may bend light; nothing where it may come from anywhere.
 std::optional<RadianceInterval> seen_behind_all(const ReferenceImage& before, glm::uvec3 at, std::span<const Place> places) {
     const auto [low, high] = seen_through_all(places, on_offset, {});
     if (low == high && low == glm::dvec3(0)) {

@@ -114,7 +114,7 @@ std::string truth_text(const Report& report, const ReportTruth& truth) {
     return fmt::format("truth of {}: {}\n", rows, truth.is);
 }
 
-/// What rounding decides, and what of it is judged all the same.
+/// Lines on the samples that rounding decides, and on those left out of the errors.
 std::string undecided_text(const Accuracy& accuracy, std::string_view samples) {
     std::string text;
     if (const auto& bound = accuracy.undecided_bound)

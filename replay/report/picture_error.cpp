@@ -41,8 +41,7 @@ void leave_out_undecided(const ReferenceImage& truth, ReferenceImage& display) {
     const std::size_t pixels = std::size_t(display.width) * display.height;
     if (truth.width != display.width || truth.height != display.height) return;
     display.undecided.resize(pixels);
-    std::vector<bool> is_known(truth.undecided.size());
-    for (const Alternative& other : truth.alternatives) is_known[other.texel] = true;
+    const std::vector<bool> is_known = has_alternatives(truth);
     for (std::size_t i = 0; i < truth.undecided.size(); ++i)
         if (truth.undecided[i] && !is_known[i]) display.undecided[i % pixels] = true;
 }

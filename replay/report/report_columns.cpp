@@ -86,29 +86,28 @@ ColumnsOfRows errors(const Report& report) {
           .kind = CellKind::share,
           .shown = in_files},
          [](const Row& row) { return row.accuracy.touched.empty() ? CellValue() : CellValue(row.accuracy.touched_share); }});
-    columns.push_back(
-        {{.key = "undecided_share",
-          .title = "undecided",
-          .help = "share of the samples whose truth rounding decides: their error is the distance to what it allows",
-          .kind = CellKind::share,
-          .shown = in_files},
-         [](const Row& row) { return row.accuracy.undecided_share; }});
+    columns.push_back({{.key = "undecided_share",
+                        .title = "undecided",
+                        .help = "share of samples whose truth depends on rounding; their error is the distance to the nearest "
+                                "result that rounding allows",
+                        .kind = CellKind::share,
+                        .shown = in_files},
+                       [](const Row& row) { return row.accuracy.undecided_share; }});
     columns.push_back({{.key = "undecided_bound",
                         .title = "may hide",
-                        .help = "error of the stage that the undecided samples can hide at most, in its unit",
+                        .help = "largest error that undecided samples can hide, in the unit of the stage's error",
                         .kind = CellKind::number,
                         .shown = in_files},
                        [](const Row& row) {
                            const auto& bound = row.accuracy.undecided_bound;
                            return bound ? CellValue(bound->value) : CellValue();
                        }});
-    columns.push_back(
-        {{.key = "unjudged_share",
-          .title = "left out",
-          .help = "share of the samples left out of the errors: rounding decides their truth, and all it allows is not known",
-          .kind = CellKind::share,
-          .shown = in_files},
-         [](const Row& row) { return row.accuracy.unjudged_share; }});
+    columns.push_back({{.key = "unjudged_share",
+                        .title = "left out",
+                        .help = "share of samples left out of the errors, because the results that rounding allows are not known",
+                        .kind = CellKind::share,
+                        .shown = in_files},
+                       [](const Row& row) { return row.accuracy.unjudged_share; }});
     return columns;
 }
 

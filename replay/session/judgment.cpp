@@ -8,6 +8,7 @@
 #include "passes/reference/difference.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/raster.h"
+#include "passes/reference/settle.h"
 #include "passes/registry.h"
 #include "passes/stage_input.h"
 #include "passes/stages.h"
@@ -223,17 +224,16 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
 
 std::optional<double> keep_touched(ReferenceImage& image, const ReferenceImage* before) {
     image.undecided.resize(image.texels.size());
-    std::vector<bool> has_alternatives(image.texels.size());
-    for (const Alternative& other : image.alternatives) has_alternatives[other.texel] = true;
+    std::vector<bool> keeps_alternatives = has_alternatives(image);
     std::size_t touched = 0, kept = 0;
     for (std::size_t i = 0; i < image.texels.size(); ++i) {
         const bool is_touched = differ(glm::dvec3(image.texels[i]), before ? glm::dvec3(before->texels[i]) : glm::dvec3(0));
         touched += is_touched;
         image.undecided[i] = image.undecided[i] || !is_touched;
-        has_alternatives[i] = has_alternatives[i] && is_touched;
-        kept += !image.undecided[i] || has_alternatives[i];
+        keeps_alternatives[i] = keeps_alternatives[i] && is_touched;
+        kept += !image.undecided[i] || keeps_alternatives[i];
     }
-    std::erase_if(image.alternatives, [&](const Alternative& other) { return !has_alternatives[other.texel]; });
+    std::erase_if(image.alternatives, [&](const Alternative& other) { return !keeps_alternatives[other.texel]; });
     return kept == 0 ? std::nullopt : std::optional(double(touched) / double(image.texels.size()));
 }
 

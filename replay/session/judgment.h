@@ -42,7 +42,7 @@ void scale_light(Accuracy&, double factor);
 std::size_t leave_out_not_numbers(const ReferenceImage& got, ReferenceImage& wanted);
 /// Why nothing can be judged, where so many are all texels; `of` names them, "sample".
 std::string nothing_but_not_numbers(std::size_t count, std::string_view of);
-/// Of the texels.
+/// Share of the texels that are undecided.
 double undecided_share(const ReferenceImage&);
 
 /// The technique's model on the stage's inputs, in double.

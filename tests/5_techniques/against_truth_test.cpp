@@ -90,7 +90,8 @@ Accuracy judged(const Technique& technique, const Key& key) {
     return accuracy;
 }
 
-/// What the errors of a stage can hide, as two figures of a row that is named after the stage; none where no sample is undecided.
+/// Figures of a row that is named after a stage: the error that undecided samples hide at most, and the percentage left out. None
+/// where no sample is undecided.
 std::vector<Metric> undecided_figures(const Accuracy& accuracy) {
     if (accuracy.undecided_share == 0) return {};
     const Metric none{"hidden at most", "", 0};
