@@ -10,6 +10,7 @@
 #include "tests/5_techniques/light_scenes.h"
 #include "tests/support/not_finite.h"
 #include "tests/support/print.h"
+#include "tests/support/similar_frame.h"
 
 namespace strata {
 namespace {
@@ -84,27 +85,11 @@ TEST_P(HardLights, OnSmoothSurfacesAreNumbersThatAHalfFloatHolds) {  // docs/alg
     EXPECT_GT(brightest, 1e3) << "no highlight to break anything";
 }
 
-/// The same sight from elsewhere in the world.
-Frame moved(Frame frame, const glm::dvec3& by) {
-    frame.view.origin += by;
-    for (Draw& draw : frame.draws) {
-        draw.to_world[3] += glm::dvec4(by, 0);
-        draw.previous_to_world[3] += glm::dvec4(by, 0);
-    }
-    for (Light& light : frame.lights) {
-        light.position += by;
-        for (ClipPlane& plane : light.clip_planes) plane.distance -= glm::dot(plane.normal, by);
-    }
-    for (Blocker& blocker : frame.blockers) blocker.center += by;
-    for (Portal& portal : frame.portals) portal.center += by;
-    return frame;
-}
-
 TEST_P(HardLights, TenKilometersFromTheOriginAreLitTheSame) {  // docs/algorithms/lighting.md N18: within 1e-3
     for (const std::string_view scenario : {"blocker_rooms", "light_types"}) {
         const Frame here = at_most_96(scenario, 1);
         const ReferenceImage near = in_double(lit_by(here).images.at("light"));
-        const ReferenceImage far = in_double(lit_by(moved(here, {7.1e3, -300.3, 7.0e3})).images.at("light"));
+        const ReferenceImage far = in_double(lit_by(similar(here, {.shift = {7.1e3, -300.3, 7.0e3}})).images.at("light"));
         double squares = 0, differences = 0;
         for (std::size_t i = 0; i < near.texels.size(); ++i) {
             const glm::dvec3 difference = near.texels[i] - far.texels[i], light = near.texels[i];

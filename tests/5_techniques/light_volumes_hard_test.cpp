@@ -374,15 +374,10 @@ Frame rooms_with_spot() {
 // T5.15
 TEST(LightVolumes, TurnAndMirrorWithTheScene) {
     const Frame plain = rooms_with_spot();
-    const glm::dmat3 quarter(0, 0, -1, 0, 1, 0, 1, 0, 0), mirror(-1, 0, 0, 0, 1, 0, 0, 0, 1);
+    const glm::dmat3 half_turn = quarter_turn * quarter_turn;
     std::vector<Frame> frames = {plain};
-    for (const glm::dmat3& by : {quarter, quarter * quarter, quarter * quarter * quarter, mirror}) {
-        Frame frame = moved(plain, by, glm::dvec3(0));
-        LightVolume& volume = frame.light_volumes[0];
-        volume.half_extent = glm::vec3(glm::abs(by * glm::dvec3(volume.half_extent)));
-        volume.cells = glm::uvec3(glm::abs(by * glm::dvec3(volume.cells)) + .5);
-        frames.push_back(std::move(frame));
-    }
+    for (const glm::dmat3& by : {quarter_turn, half_turn, half_turn * quarter_turn, mirror_x})
+        frames.push_back(similar(plain, {.turn = by}));
     const auto session = session_of(frames);
     const HostImage here = must(session->run(indirect_of(0))).images.at("indirect");
     for (std::size_t i = 1; i < frames.size(); ++i) {

@@ -21,27 +21,25 @@ std::vector<std::string> scenario_names() {
     return names;
 }
 
-TEST_P(EveryScenario, ForcingEverythingChangesNoPixel) {
+void expect_nothing_of(const SkippedStage& skipped, const Run& run) {
+    EXPECT_FALSE(skipped.reason.empty());
+    EXPECT_FALSE(run.stage_bytes.contains(std::string(name(skipped.stage)))) << name(skipped.stage);
+    for (const StepRecord& step : run.steps)
+        EXPECT_FALSE(step.scope.kind == ScopeKind::pass && step.scope.stage == skipped.stage) << text_of(step.scope);
+    for (const CounterRecord& counter : run.counters)
+        EXPECT_NE(counter.technique.substr(0, counter.technique.find('/')), name(skipped.stage));
+}
+
+TEST_P(EveryScenario, LeavesOutStagesWholeAndForcingThemChangesNoPixel) {
     Request request = on_scenario(GetParam());
     request.outputs = {"color", "display"};
+    request.once = true;  // a stage that is kept from another run has no steps
     const auto plain = must(session_of_scenarios().run(request));
+    for (const SkippedStage& skipped : plain.skipped) expect_nothing_of(skipped, plain);
+    request.once = false;
     request.variant.force.assign(all_features().begin(), all_features().end());
     const auto all = must(session_of_scenarios().run(request));
     for (const auto& [name, image] : plain.images) EXPECT_EQ(hash_of(image), hash_of(all.images.at(name))) << name;
-}
-
-TEST_P(EveryScenario, AStageThatIsLeftOutCountsNothingAndHoldsNothing) {
-    Request request = on_scenario(GetParam());
-    request.once = true;  // a stage that is kept from another run has no steps
-    const auto run = must(session_of_scenarios().run(request));
-    for (const SkippedStage& skipped : run.skipped) {
-        EXPECT_FALSE(skipped.reason.empty());
-        EXPECT_FALSE(run.stage_bytes.contains(std::string(name(skipped.stage)))) << name(skipped.stage);
-        for (const StepRecord& step : run.steps)
-            EXPECT_FALSE(step.scope.kind == ScopeKind::pass && step.scope.stage == skipped.stage) << text_of(step.scope);
-        for (const CounterRecord& counter : run.counters)
-            EXPECT_NE(counter.technique.substr(0, counter.technique.find('/')), name(skipped.stage));
-    }
 }
 
 TEST(OnlyWhatIsNeeded, AnEmptyFrameLeavesOutMostStages) {
