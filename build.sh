@@ -21,7 +21,7 @@ packages=(
     libimgui-dev libglfw3-dev fonts-dejavu-core
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format git xvfb xdotool x11-apps xclip libx11-dev chromium-common libjemalloc2)
-clang_packages=(clang-14 libclang-rt-14-dev llvm-14)
+clang_packages=(clang-16 libclang-rt-16-dev llvm-16)
 tidy_packages=(clang-16 clang-tidy-16)
 
 usage() { sed -n '2,/^set/{/^#/p}' "$0" >&2; exit 2; }

@@ -5,8 +5,8 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 least=95 profiles=build-sanitize/profiles program=build-sanitize/test_1_capture
-llvm-profdata-14 merge -sparse -o $profiles/merged $profiles/*.profraw
-llvm-cov-14 export -format=lcov -instr-profile=$profiles/merged $program capture_format >$profiles/lines
+llvm-profdata-16 merge -sparse -o $profiles/merged $profiles/*.profraw
+llvm-cov-16 export -format=lcov -instr-profile=$profiles/merged $program capture_format >$profiles/lines
 # lcov: SF:FILE, then DA:LINE,COUNT for each line with code.
 awk -F'[:,]' -v root="$PWD/" -v least=$least '
     /^SF:/ { file = $2; sub(root, "", file); files[++n] = file }

@@ -29,8 +29,9 @@ public:
         for (std::uint32_t i = 0; i < frame.draws.size(); ++i) spaces_.push_back(draw_space(frame, i));
     }
 
-    /// The mean over a batch of paths: irradiance / pi.
-    glm::dvec3 batch(const LitSide& sample, DrawnNumbers random) const {
+    /// The mean over a batch of paths from a surface that a G-buffer gave: irradiance / pi.
+    glm::dvec3 batch(const LitSide& given, DrawnNumbers random) const {
+        const Departure sample = seen_surface(scene_, given.position, given.normal);
         std::vector<Leg> legs(directions_.bounces);
         for (Leg& leg : legs) {
             leg.directions = &leg == &legs.front() ? stratified(directions_.side, random) : shuffled(directions_.side, random);
@@ -49,19 +50,19 @@ private:
     };
 
     /// What comes along a path, which has these legs yet to go.
-    glm::dvec3 radiance(const LitSide& sample, std::span<const Leg> legs, std::size_t path) const {
+    glm::dvec3 radiance(const Departure& sample, std::span<const Leg> legs, std::size_t path) const {
         const glm::dvec3 direction = cosine_direction(sample.normal, legs.front().directions[path]);
-        const glm::dvec3 origin = ray_start(sample.position, sample.normal);
-        const std::optional<Hit> hit = scene_.closest(origin, direction, 0, endless);
+        const std::optional<Hit> hit = sample.closest(scene_, direction, endless);
         if (!hit) return glm::dvec3(0);
         const Attributes attributes = attributes_at(frame_, hit->draw, hit->triangle, hit->barycentric);
         const glm::dvec3 albedo = diffuse_albedo(frame_, hit->draw, attributes);
         if (albedo == glm::dvec3(0)) return glm::dvec3(0);
-        const LitSide reflecting{origin + direction * hit->distance, facing_normal(*hit, attributes, direction)};
+        const LitSide reflecting{sample.position + direction * hit->distance, facing_normal(*hit, attributes, direction)};
         glm::dvec3 irradiance(0);
         for (std::size_t i = 0; i < direct_.lights(); ++i)
             irradiance += direct_.irradiance(i, reflecting, legs.front().places[i][path]);
-        if (legs.size() > 1) irradiance += std::numbers::pi * radiance(reflecting, legs.subspan(1), path);
+        if (legs.size() > 1)
+            irradiance += std::numbers::pi * radiance({reflecting.position, reflecting.normal, hit->draw}, legs.subspan(1), path);
         if (irradiance == glm::dvec3(0)) return glm::dvec3(0);
         if (!blockers_.let_through(off_surface(reflecting.position, reflecting.normal),
                                    off_surface(sample.position, sample.normal)))

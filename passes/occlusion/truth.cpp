@@ -19,9 +19,9 @@ using occlusion::MaterialRule, occlusion::radii;
 
 /// The share of a batch of rays that nothing stops.
 double share_of_clear_rays(const RayScene& scene, const SurfacePoint& at, double radius, std::span<const glm::dvec2> places) {
-    const glm::dvec3 normal = facing_normal(at), start = ray_start(at.position, normal);
+    const Departure from = seen_surface(scene, at.position, facing_normal(at));
     std::size_t clear = 0;
-    for (const glm::dvec2& place : places) clear += scene.clear(start, cosine_direction(normal, place), 0, radius);
+    for (const glm::dvec2& place : places) clear += !from.closest(scene, cosine_direction(from.normal, place), radius);
     return double(clear) / double(places.size());
 }
 

@@ -73,7 +73,7 @@ ReferenceImage traced_rain(const StageInput& input, std::span<const glm::dvec3> 
     const ReferenceImage& shape = input.before.at("surface_normal");
     ReferenceImage arriving(shape.width, shape.height, shape.layers);
     for_every_surface(input, [&](std::size_t i, const SurfacePoint& p) {
-        const glm::dvec3 start = ray_start(p.position, facing_normal(p));
+        const glm::dvec3 start = off_surface_of_depth(p.position, facing_normal(p));
         const auto arrives = [&](const glm::dvec3& direction) {
             return scene.clear(start, -(input.frame.view.to_view * direction), 0, above_everything);
         };

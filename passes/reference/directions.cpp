@@ -6,13 +6,6 @@
 #include <utility>
 
 namespace strata {
-namespace {
-
-// Meters a ray starts off its surface, at least and per meter of view depth: the coarsest G-buffer's positions are up to 4.9e-4
-// of their depth behind it (passes/gbuffer).
-constexpr double least_lift = 1e-3, lift_per_meter = 5e-4;
-
-}  // namespace
 
 std::array<glm::dvec3, 2> perpendiculars(const glm::dvec3& axis) {
     const glm::dvec3 helper = std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
@@ -45,10 +38,6 @@ glm::dvec3 cosine_direction(const glm::dvec3& normal, const glm::dvec2& place) {
     const auto [u, v] = perpendiculars(normal);
     const double sine = std::sqrt(place.x), angle = 2 * std::numbers::pi * place.y;
     return sine * (std::cos(angle) * u + std::sin(angle) * v) + std::sqrt(1 - place.x) * normal;
-}
-
-glm::dvec3 ray_start(const glm::dvec3& position, const glm::dvec3& normal) {
-    return position + normal * std::max(least_lift, lift_per_meter * position.z);
 }
 
 }  // namespace strata

@@ -35,7 +35,4 @@ std::vector<glm::dvec2> shuffled(std::uint32_t side, DrawnNumbers&);
 /// Distributed by the cosine to the normal: equal areas of the unit square are equal shares of irradiance.
 glm::dvec3 cosine_direction(const glm::dvec3& normal, const glm::dvec2& place);
 
-/// Where a ray leaves a surface that a G-buffer gave: off it by what the coarsest G-buffer's depth may be wrong. View space.
-glm::dvec3 ray_start(const glm::dvec3& position, const glm::dvec3& normal);
-
 }  // namespace strata

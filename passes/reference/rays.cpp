@@ -148,4 +148,30 @@ bool RayScene::clear(glm::dvec3 origin, glm::dvec3 direction, double begin, doub
     return !blocked;
 }
 
+namespace {
+
+/// By how much of its depth the position that the coarsest G-buffer gave may lie behind its surface: halves round by 2^-11.
+constexpr double depth_error = 5e-4;
+
+}  // namespace
+
+std::optional<Hit> Departure::closest(const RayScene& scene, const glm::dvec3& direction, double end) const {
+    const double least = depth_error * glm::length(position) / glm::dot(direction, normal);
+    for (double begin = 0;;) {
+        const std::optional<Hit> hit = scene.closest(position, direction, begin, end);
+        if (!hit || hit->draw != draw || hit->distance >= least) return hit;
+        begin = hit->distance;
+    }
+}
+
+Departure seen_surface(const RayScene& scene, const glm::dvec3& position, const glm::dvec3& normal) {
+    if (const auto seen = scene.closest(glm::dvec3(0), position, 1 - depth_error, 1 + depth_error))
+        return {seen->distance * position, normal, seen->draw};
+    return {off_surface_of_depth(position, normal), normal, std::nullopt};
+}
+
+glm::dvec3 off_surface_of_depth(const glm::dvec3& position, const glm::dvec3& normal) {
+    return position + depth_error * glm::length(position) * normal;
+}
+
 }  // namespace strata

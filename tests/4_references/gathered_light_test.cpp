@@ -14,6 +14,7 @@
 #include "passes/reference/lights.h"
 #include "passes/reference/standard_error.h"
 #include "passes/stage_input.h"
+#include "tests/4_references/estimates.h"
 #include "tests/4_references/tiny_frame.h"
 
 namespace strata {
@@ -197,6 +198,16 @@ TEST(gathered_light, errs_by_its_own_standard_error_which_stratification_makes_s
         }
         before = expected;
     }
+}
+
+TEST(gathered_light, has_the_mean_of_the_closed_form_and_half_a_percent_of_bias_shows) {
+    LitSquare lit;
+    add_rectangle(lit.frame, {.center = lit.receiver.position, .u = {1e-3, 0, 0}, .v = {0, 1e-3, 0}});  // rays leave it itself
+    const double wanted = radiosity * above_square / pi;
+    const ReferenceImage many = gathered(lit.frame, lit.receiver, {.side = 64, .batches = 1}, 28);
+    const Biases found = biases(many, wanted);
+    EXPECT_LE(found.false_alarms, 2) << "of 28 at a level of .01";
+    EXPECT_EQ(found.noticed, 28) << "biases of .5 %";
 }
 
 TEST(gathered_light, is_the_same_in_every_run_and_at_every_sample_of_one_surface) {

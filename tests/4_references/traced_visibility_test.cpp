@@ -14,6 +14,7 @@
 #include "passes/reference/estimated_image.h"
 #include "passes/reference/place_code.h"
 #include "passes/stage_input.h"
+#include "tests/4_references/estimates.h"
 #include "tests/4_references/tiny_frame.h"
 
 namespace strata {
@@ -137,6 +138,13 @@ TEST(traced_visibility, knows_its_standard_error) {
     }
     EXPECT_NEAR(std::sqrt(squares) / std::sqrt(expected), 1, .15);
     EXPECT_EQ(traced(walls({}), 2, {}).standard_error[0].x, 0);
+}
+
+TEST(traced_visibility, has_the_mean_of_the_closed_form_and_half_a_percent_of_bias_shows) {
+    const double wanted = 1 - taken_by_wall(.5);
+    const Biases found = biases(traced(walls(std::array{1.0}), 2, {.side = 32, .batches = 1}, 28), wanted);
+    EXPECT_LE(found.false_alarms, 2) << "of 28 at a level of .01";
+    EXPECT_EQ(found.noticed, 28) << "biases of .5 %";
 }
 
 TEST(traced_visibility, has_a_truth_for_every_radius_and_rule) {

@@ -71,9 +71,10 @@ const Change changes[] = {
     {"10,000 times as large", {.scale = 1e4}, &Case::resized}, {"a thousandth as large", {.scale = 1e-3}, &Case::tiny},
 };
 
-/// Layouts whose positions are halves end at 65,504 m, so that in the largest frame the far half of what is seen is missing.
-bool keeps_positions_in_halves(const Technique& technique) {
-    return technique.name == "gbuffer/wide" || technique.name == "gbuffer/oct_half";
+/// Halves of positions end at 65,504 m, so that in the largest frame the far half of what is seen is missing; slices of `voxel` are
+/// an inch thick.
+bool has_a_size_of_its_own(const Technique& technique) {
+    return technique.name == "gbuffer/wide" || technique.name == "gbuffer/oct_half" || technique.name == "transparency/voxel";
 }
 
 class SimilarFrames {
@@ -91,7 +92,7 @@ public:
         if (std::isnan(plain)) return;  // it cannot do the frame
         for (std::size_t i = 0; i < std::size(changes); ++i) {
             const double bound = case_.*changes[i].bound;
-            if (std::isinf(bound) || (changes[i].by.scale > 1 && keeps_positions_in_halves(technique))) continue;
+            if (std::isinf(bound) || (changes[i].by.scale > 1 && has_a_size_of_its_own(technique))) continue;
             // Below the least, errors are rounding.
             constexpr double least = 1e-6;
             const double changed = error(technique, i + 1);
