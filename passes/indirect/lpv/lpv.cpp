@@ -120,8 +120,8 @@ Technique lpv() {
                   .high = 2,
                   .fallback = propagation_linear,
                   .help =
-                      "negative radiance at a cell face; linear: kept; clamped: set to 0; energy_true: set to 0, the rest scaled "
-                      "to conserve energy",
+                      "negative radiance at a cell face; linear: kept; clamped: set to 0, which adds energy; energy_true: set to 0, "
+                      "the rest scaled to conserve energy",
                   .choices = propagations}),
              param<&LpvParams::faces>(
                  {.name = "faces",
