@@ -17,6 +17,8 @@ template <typename... Cases>
 struct Match : Cases... {
     using Cases::operator()...;
 };
+template <typename... Cases>
+Match(Cases...) -> Match<Cases...>;  // clang 16 deduces no aggregates
 
 ordered_json json_number(double value) {
     if (std::isfinite(value)) return value;

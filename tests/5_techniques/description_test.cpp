@@ -78,7 +78,7 @@ TEST_P(Description, WithSlicesOfDepthHasTheirTableInMeters) {
     const auto table = std::ranges::find(technique.tables, technique.abilities.slices_table, &DebugTable::name);
     ASSERT_NE(table, technique.tables.end());
     ASSERT_GE(table->columns.size(), 2u);
-    for (const std::size_t column : {0, 1}) EXPECT_EQ(table->columns[column].unit, "m");
+    for (const std::size_t column : {0u, 1u}) EXPECT_EQ(table->columns[column].unit, "m");
 }
 
 TEST_P(Description, HasParametersWithDefaultsInTheirRange) {

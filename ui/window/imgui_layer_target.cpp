@@ -41,7 +41,7 @@ Picture LayerTarget::read_back() const {
     Picture picture{.width = width, .height = height};
     picture.rgb.reserve(std::size_t{3} * width * height);
     for (std::size_t i = 0; i < std::size_t{4} * width * height; i += 4)
-        for (const std::size_t channel : {2, 1, 0}) picture.rgb.push_back(staging.mapped[i + channel]);
+        for (const std::size_t channel : {2u, 1u, 0u}) picture.rgb.push_back(staging.mapped[i + channel]);
     return picture;
 }
 
