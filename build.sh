@@ -7,7 +7,7 @@
 #   ./build.sh format   check that clang-format would change no file
 #   ./build.sh tidy     run clang-tidy on the lines that differ from the last landed commit, for at most 180 seconds; ./build.sh tidy 3600 for 3600
 #   ./build.sh sanitize build with clang and run the tests of the capture format under address and undefined-behavior sanitizers, and print
-#                       which of its lines they run; ./build.sh sanitize all: every test that needs no device, and threads under theirs
+#                       which of its lines they run; ./build.sh sanitize all: every test, and threads under theirs
 #   ./build.sh fuzz     build the fuzzers with clang and run each for 60 seconds, all at once; ./build.sh fuzz 600 for 600
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -135,6 +135,9 @@ case "${1:-build}" in
         done
         tests/line_coverage.sh
         if [ "${2:-}" = all ]; then
+            say "programs with a device under sanitizers"
+            build sanitize_device
+            ctest --preset sanitize_device
             build threads test_threads
             say "test_threads under the thread sanitizer"
             # The disk that fills up and the killed writer are processes of their own, which the thread sanitizer does not follow.

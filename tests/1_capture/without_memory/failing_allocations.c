@@ -57,10 +57,21 @@ void* calloc(size_t number, size_t bytes) { return fails_in_library() ? NULL : _
 void* realloc(void* old, size_t bytes) { return fails_in_library() ? NULL : __libc_realloc(old, bytes); }
 void* memalign(size_t alignment, size_t bytes) { return fails_in_library() ? NULL : __libc_memalign(alignment, bytes); }
 
+/* Static objects of a library that is being loaded may allocate by functions of templates that the program has, too. */
+static _Thread_local int libraries_loading;
+void* dlopen(const char* path, int mode) {
+    static void* (*of_library)(const char*, int);
+    if (!of_library) of_library = (void* (*)(const char*, int))dlsym(RTLD_NEXT, "dlopen");
+    ++libraries_loading;
+    void* library = of_library(path, mode);
+    --libraries_loading;
+    return library;
+}
+
 /* The library's operator new throws where malloc() fails. */
 static void let_new_fail(void* caller) {
     const uintptr_t address = (uintptr_t)caller;
-    if (address >= program_begin && address < program_end && fails()) next_fails = 1;
+    if (!libraries_loading && address >= program_begin && address < program_end && fails()) next_fails = 1;
 }
 void* _Znwm(size_t bytes) { /* operator new(std::size_t) */
     static void* (*of_library)(size_t);
