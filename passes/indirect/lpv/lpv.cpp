@@ -115,14 +115,13 @@ Technique lpv() {
                   .high = 64,
                   .fallback = 0,
                   .help = "propagation steps of one cell each; more: light reaches farther and is brighter; 0: as recorded"}),
-             param<&LpvParams::propagation>(
-                 {.name = "propagation",
-                  .high = 2,
-                  .fallback = propagation_linear,
-                  .help =
-                      "negative radiance at a cell face; linear: kept; clamped: set to 0, which adds energy; energy_true: set to 0, "
-                      "the rest scaled to conserve energy",
-                  .choices = propagations}),
+             param<&LpvParams::propagation>({.name = "propagation",
+                                             .high = 2,
+                                             .fallback = propagation_linear,
+                                             .help = "negative radiance at a cell face; linear: kept; clamped: set to 0, which "
+                                                     "adds energy; energy_true: set to 0, "
+                                                     "the rest scaled to conserve energy",
+                                             .choices = propagations}),
              param<&LpvParams::faces>(
                  {.name = "faces",
                   .high = 1,
