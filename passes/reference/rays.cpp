@@ -97,6 +97,7 @@ std::optional<Hit> RayScene::intersect(const Triangle& triangle, const Span& ray
     const double distance = glm::dot(e2, q) / determinant;
     if (!(distance > ray.begin && distance <= ray.end)) return std::nullopt;
     Hit hit{.distance = distance, .draw = triangle.draw, .triangle = triangle.triangle, .barycentric = {1 - b1 - b2, b1, b2}};
+    hit.across = glm::cross(e1, e2);
     hit.front_facing = determinant * triangle.handedness > 0;
     if (!solid(triangle, hit.barycentric)) return std::nullopt;
     return hit;
@@ -160,6 +161,7 @@ std::optional<Hit> Departure::closest(const RayScene& scene, const glm::dvec3& d
     for (double begin = 0;;) {
         const std::optional<Hit> hit = scene.closest(position, direction, begin, end);
         if (!hit || hit->draw != draw || hit->distance >= least) return hit;
+        if (std::abs(glm::dot(hit->across, normal)) < .5 * glm::length(hit->across)) return hit;
         begin = hit->distance;
     }
 }

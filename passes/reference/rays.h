@@ -16,6 +16,7 @@ struct Hit {
     double distance = 0;
     std::uint32_t draw = 0, triangle = 0;
     glm::dvec3 barycentric{0};
+    glm::dvec3 across{0};  ///< perpendicular to the triangle, to either side, as long as twice its area
     bool front_facing = true;
 };
 
@@ -61,8 +62,8 @@ struct Departure {
     glm::dvec3 position{0}, normal{0};  ///< the side that they leave to
     std::optional<std::uint32_t> draw;  ///< whose surface it is, if that is known
 
-    /// The nearest hit up to a distance. What is of the same draw and less above the tangent plane than the coarsest G-buffer's
-    /// depth may be wrong by is the surface itself: facets of what the normal says is round.
+    /// The nearest hit up to a distance. What is of the same draw, lies within 60 degrees of the tangent plane and less above it
+    /// than the coarsest G-buffer's depth may be wrong by is the surface itself: facets of what the normal says is round.
     std::optional<Hit> closest(const RayScene&, const glm::dvec3& direction, double end) const;
 };
 

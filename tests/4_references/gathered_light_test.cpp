@@ -208,6 +208,7 @@ TEST(gathered_light, has_the_mean_of_the_closed_form_and_half_a_percent_of_bias_
     const Biases found = biases(many, wanted);
     EXPECT_LE(found.false_alarms, 2) << "of 28 at a level of .01";
     EXPECT_EQ(found.noticed, 28) << "biases of .5 %";
+    EXPECT_GT(found.probability, .001) << "the mean of all";
 }
 
 TEST(gathered_light, is_the_same_in_every_run_and_at_every_sample_of_one_surface) {

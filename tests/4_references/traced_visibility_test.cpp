@@ -94,6 +94,20 @@ TEST(traced_visibility, before_an_endless_wall_is_a_half_wherever_the_wall_stand
     for (const double distance : {.3, 3.0}) EXPECT_NEAR(visibility(walls(std::array{distance}), endless), .5, .001);
 }
 
+TEST(traced_visibility, before_a_wall_of_the_same_mesh_is_a_half_however_near_it_stands) {
+    for (const double distance : {1e-4, 1e-3, .1}) {
+        Frame frame = tiny::frame(1, 1);
+        std::vector<glm::dvec3> corners;
+        for (const glm::dvec3& up : {glm::dvec3(1e4, 0, 0), glm::dvec3(0, 1e4, 0)}) {  // the floor, and the wall at its side
+            const glm::dvec3 at(distance, 0, 0), along(0, 0, 1e4), far = up.x > 0 ? -up : up;
+            for (const glm::dvec3& corner : {at - along, at + along, at + far + along}) corners.push_back(corner);
+            for (const glm::dvec3& corner : {at - along, at + far + along, at + far - along}) corners.push_back(corner);
+        }
+        tiny::add_triangles(frame, corners);
+        EXPECT_NEAR(visibility(frame, endless), .5, .002) << distance;
+    }
+}
+
 TEST(traced_visibility, before_a_wall_within_the_radius_is_what_the_closed_form_says) {
     for (const double distance : {.25, 1.0, 1.8, 2.1}) {
         const double taken = distance < 2 ? taken_by_wall(distance / 2) : 0;
@@ -145,6 +159,7 @@ TEST(traced_visibility, has_the_mean_of_the_closed_form_and_half_a_percent_of_bi
     const Biases found = biases(traced(walls(std::array{1.0}), 2, {.side = 32, .batches = 1}, 28), wanted);
     EXPECT_LE(found.false_alarms, 2) << "of 28 at a level of .01";
     EXPECT_EQ(found.noticed, 28) << "biases of .5 %";
+    EXPECT_GT(found.probability, .001) << "the mean of all";
 }
 
 TEST(traced_visibility, has_a_truth_for_every_radius_and_rule) {
