@@ -25,12 +25,13 @@ using std::numbers::pi, occlusion::MaterialRule;
 
 constexpr double endless = 1e9;
 
-/// A sample that lies at the origin and faces +y, a meter before an eye of whose pixels all see it.
-ReferenceImage traced(Frame frame, double radius, const TracedDirections& directions, std::uint32_t size = 1) {
+/// A sample that lies at the origin, a meter before an eye of whose pixels all see it; where it faces +y, they see it edge on.
+ReferenceImage traced(Frame frame, double radius, const TracedDirections& directions, std::uint32_t size = 1,
+                      const glm::dvec3& normal = {0, 1, 0}) {
     const Frame narrow = tiny::frame(size, size, 1, 1e-9);
     frame.view = narrow.view;
     frame.view.origin = {0, 0, -1};
-    const ImageSet before{{"surface_normal", ReferenceImage(size, size, 1, {0, 1, 0, 1})},
+    const ImageSet before{{"surface_normal", ReferenceImage(size, size, 1, {normal, 1})},
                           {"surface_material", ReferenceImage(size, size, 1, {double(LightingModel::lambert), 0, 1, 0})}};
     return traced_visibility({frame, before}, radius, directions);
 }
@@ -98,13 +99,13 @@ TEST(traced_visibility, before_a_wall_of_the_same_mesh_is_a_half_however_near_it
     for (const double distance : {1e-4, 1e-3, .1}) {
         Frame frame = tiny::frame(1, 1);
         std::vector<glm::dvec3> corners;
-        for (const glm::dvec3& up : {glm::dvec3(1e4, 0, 0), glm::dvec3(0, 1e4, 0)}) {  // the floor, and the wall at its side
-            const glm::dvec3 at(distance, 0, 0), along(0, 0, 1e4), far = up.x > 0 ? -up : up;
-            for (const glm::dvec3& corner : {at - along, at + along, at + far + along}) corners.push_back(corner);
-            for (const glm::dvec3& corner : {at - along, at + far + along, at + far - along}) corners.push_back(corner);
+        for (const glm::dvec3& away :
+             {glm::dvec3(-1e4, 0, 0), glm::dvec3(0, 0, -1e4)}) {  // the floor, and the wall towards the eye
+            const glm::dvec3 low(distance, -1e4, 0), high(distance, 1e4, 0);
+            for (const glm::dvec3& corner : {low, high, high + away, low, high + away, low + away}) corners.push_back(corner);
         }
         tiny::add_triangles(frame, corners);
-        EXPECT_NEAR(visibility(frame, endless), .5, .002) << distance;
+        EXPECT_NEAR(traced(frame, endless, {.side = 128, .batches = 1}, 1, {0, 0, -1}).at(0, 0).x, .5, .002) << distance;
     }
 }
 
