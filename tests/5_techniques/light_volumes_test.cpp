@@ -202,5 +202,14 @@ TEST(LightVolumes, AreTheSameTenKilometersAway) {
     EXPECT_LT(worst, 1e-3 * most);
 }
 
+TEST(LightVolumes, ThatAreForcedIntoAFrameWithoutAnyAreWhatTheirModelSays) {
+    Request request = on_scenario("one_sphere");
+    request.variant.force = {Feature::light_volumes};
+    request.choices = chosen({"indirect/lpv"});
+    const Accuracy accuracy = must(session_of_scenarios().judge(request, Stage::indirect, Against::model));
+    EXPECT_GT(accuracy.compared, 0u);
+    EXPECT_EQ(accuracy.model_worst, 0);
+}
+
 }  // namespace
 }  // namespace strata
