@@ -39,7 +39,7 @@ TEST(LightVolumeTaps, AskTheBlockersOfTheirMacroCellAndGetTheBitsOfAskingAll) {
     const auto session =
         must(Session::open({scenario_frames("two_rooms", 1, 2)[1], with_random_blockers(33, 2), with_random_blockers(100, 3)},
                            {.validation = true}));
-    for (const std::size_t frame : {0, 1, 2}) {
+    for (const std::size_t frame : {0u, 1u, 2u}) {
         const auto near = indirect_light(*session, {}, frame), all = indirect_light(*session, {"macro_cells=off"}, frame);
         EXPECT_TRUE(near.images.at("indirect").texels == all.images.at("indirect").texels) << frame;
         EXPECT_EQ(count_of(near, "hidden taps"), count_of(all, "hidden taps")) << frame;
@@ -152,7 +152,7 @@ double relative_error(const HostImage& image, const HostImage& wanted) {
 TEST(LightVolumeTaps, AreReadByAQuarterOfThePixelsWithLittleError) {
     const auto session = must(Session::open(
         {at_240(scenario_frames("two_rooms", 1, 2)[1]), at_240(scenario_frames("cornell_box")[0])}, {.validation = true}));
-    for (const std::size_t frame : {0, 1}) {
+    for (const std::size_t frame : {0u, 1u}) {
         const auto full = indirect_light(*session, {}, frame), half = indirect_light(*session, {"apply_resolution=half"}, frame);
         const double error = relative_error(half.images.at("indirect"), full.images.at("indirect"));
         EXPECT_GT(error, 1e-4) << frame;

@@ -99,7 +99,7 @@ NumberTable table_of(Session& session, const std::string& name, std::size_t fram
 TEST(LightVolumes, LoseNoEnergyButAtBlockersAndOverTheBorder) {
     // Closed by blockers, and by none.
     const auto session = session_of({two_rooms()[1], scenario_frames("cornell_box").front()});
-    for (const std::size_t frame : {0, 1})
+    for (const std::size_t frame : {0u, 1u})
         for (const char* propagation : {"linear", "energy_true"})
             for (const char* faces : {"centre", "exact"}) {
                 const NumberTable table =
@@ -142,7 +142,7 @@ TEST(LightVolumes, BounceTwiceTheSameWithoutVertexNormals) {
 // docs/algorithms/lighting.md N11: a loop of bounces ends where each brings less than the one before.
 TEST(LightVolumes, ReflectNoMoreTheSecondTimeThanTheirSurfacesMay) {
     const auto session = session_of({two_rooms()[1], scenario_frames("cornell_box").front()});
-    for (const std::size_t frame : {0, 1}) {
+    for (const std::size_t frame : {0u, 1u}) {
         const NumberTable table = table_of(*session, "bounces", frame, {"bounces=2"});
         ASSERT_EQ(table.rows.size(), 2u);
         EXPECT_GT(table.rows[1][1], .05 * table.rows[0][1]);

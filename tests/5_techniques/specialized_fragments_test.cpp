@@ -172,7 +172,7 @@ TEST(SpecializedSurfaces, CastTheShadowsOfAFrameWithAllKinds) {
     add_unseen_variety(more, AlphaMode::opaque);
     const auto session = session_of({alone, more, whole});
     std::vector<HostImage> visible;
-    for (const std::size_t frame : {0, 1, 2})
+    for (const std::size_t frame : {0u, 1u, 2u})
         visible.push_back(
             must(session->run(Request{.variant = {.frame = frame}, .outputs = {"visibility"}})).images.at("visibility"));
     EXPECT_TRUE(visible[0].texels == visible[1].texels);

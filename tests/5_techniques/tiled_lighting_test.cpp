@@ -39,7 +39,7 @@ TEST(TiledLighting, IsALoopOverAllLightsHoweverManyReachATile) {
 }
 
 TEST(TiledLighting, DoesAnyNumberOfLights) {
-    for (const std::size_t n : {1, 31, 32, 33, 63, 64, 65, 255, 256, 257, 4095, 4096}) {
+    for (const std::size_t n : {1u, 31u, 32u, 33u, 63u, 64u, 65u, 255u, 256u, 257u, 4095u, 4096u}) {
         Frame frame = dark_frame("lights_room");
         RandomLights random(static_cast<unsigned>(n));
         random.add_lights(frame, n, n < 64 ? 20 : 4);
@@ -70,7 +70,7 @@ TEST(TiledLighting, CountsATileAsFullBeyond64LightsAndNotAt64) {
     Frame frame = dark_frame("lights_room");
     RandomLights random(64);
     const Light lamp = random.light(frame, LightType::omni, 1000);
-    for (const std::size_t n : {63, 64, 65}) {
+    for (const std::size_t n : {63u, 64u, 65u}) {
         frame.lights.assign(n, lamp);
         for (const char* set : {"overflow=batch", "overflow=drop"}) {
             const auto run = lit(frame, tiled_lighting, {set});

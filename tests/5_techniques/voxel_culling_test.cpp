@@ -38,7 +38,7 @@ std::size_t differing_pixels(const HostImage& a, const HostImage& b) {
     constexpr std::size_t pixel = 16;  // of rgba32f
     std::size_t differing = 0;
     for (std::size_t at = 0; at < a.texels.size(); at += pixel)
-        differing += !std::equal(a.texels.begin() + at, a.texels.begin() + at + pixel, b.texels.begin() + at);
+        differing += !std::ranges::equal(std::span(a.texels).subspan(at, pixel), std::span(b.texels).subspan(at, pixel));
     return differing;
 }
 

@@ -75,7 +75,8 @@ TEST(Memo, APictureMadeWithItIsThePictureOfAFreshRun) {
 TEST(Memo, TimingExecutesWhatRequestsShareOncePerRepeat) {
     const auto session = scenario_session("glass_and_smoke");
     std::vector<Request> requests;
-    for (const std::size_t place : {0, 1, 2}) requests.push_back({.choices = chosen({technique_of(Stage::transparency, place)})});
+    for (const std::size_t place : {0u, 1u, 2u})
+        requests.push_back({.choices = chosen({technique_of(Stage::transparency, place)})});
     const auto runs = must(session->time(requests, 3));
     ASSERT_EQ(runs.size(), requests.size());
     const auto gbuffer = [](const auto& run) { return run.stage_ms.at("gbuffer"); };

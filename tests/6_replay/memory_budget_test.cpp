@@ -42,7 +42,7 @@ TEST(MemoryBudget, HoldsOverFramesPassesJudgmentsAndTimings) {
     Request everything{.passes = Passes::read_back};
     const std::uint64_t budget = peak_of(must(generous->run(everything))) + 2 * mib;  // small things are reckoned with 1 MiB
     const auto bounded = session_within(budget, 2);
-    for (const std::size_t frame : {0, 1, 0}) {
+    for (const std::size_t frame : {0u, 1u, 0u}) {
         everything.variant.frame = frame;
         must(bounded->run({.variant = {.frame = frame}}));
         must(bounded->run(everything));

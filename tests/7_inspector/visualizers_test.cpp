@@ -81,7 +81,7 @@ TEST(Visualizers, DigitsShowTheViewsOfOneTechniqueInTurn) {
     Desk& desk = gallery();
     const Technique& technique = *must(find_technique(tiled));
     must(desk.player->click("Visualizers/lighting/tiled/overflow"));
-    for (const std::size_t number : {1, 2, 9}) {
+    for (const std::size_t number : {1u, 2u, 9u}) {
         must(desk.player->key(fmt::format("{}", number)));
         EXPECT_EQ(desk.model().image.name, output_name(technique, technique.views[number - 1].name));
     }

@@ -80,7 +80,7 @@ HostImage Screen::shot() const {
     for (std::size_t y = 0; y < image.shape.extent.height; ++y)
         for (std::size_t x = 0; x < image.shape.extent.width; ++x) {
             const std::size_t at = begin + y * word(file, line_bytes) + 4 * x;  // blue, green, red
-            for (const std::size_t channel : {2, 1, 0}) image.texels.push_back(static_cast<std::byte>(file.at(at + channel)));
+            for (const std::size_t channel : {2u, 1u, 0u}) image.texels.push_back(static_cast<std::byte>(file.at(at + channel)));
             image.texels.push_back(std::byte{255});
         }
     return image;
