@@ -1,6 +1,5 @@
 #include "passes/reference/directions.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>

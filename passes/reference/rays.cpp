@@ -151,16 +151,18 @@ bool RayScene::clear(glm::dvec3 origin, glm::dvec3 direction, double begin, doub
 
 namespace {
 
-/// By how much of its depth the position that the coarsest G-buffer gave may lie behind its surface: halves round by 2^-11.
+/// Error of the coarsest G-buffer's depth, relative: halves round by 2^-11.
 constexpr double depth_error = 5e-4;
+/// Height, relative to depth, below which surfaces coincide: rounding of doubles decides which is in front.
+constexpr double coincident = 1e-9;
 
 }  // namespace
 
 std::optional<Hit> Departure::closest(const RayScene& scene, const glm::dvec3& direction, double end) const {
-    const double least = depth_error * glm::length(position) / glm::dot(direction, normal);
-    for (double begin = 0;;) {
+    const double per_height = glm::length(position) / glm::dot(direction, normal);
+    for (double begin = coincident * per_height;;) {
         const std::optional<Hit> hit = scene.closest(position, direction, begin, end);
-        if (!hit || hit->draw != draw || hit->distance >= least) return hit;
+        if (!hit || hit->draw != draw || hit->distance >= depth_error * per_height) return hit;
         if (std::abs(glm::dot(hit->across, normal)) < .5 * glm::length(hit->across)) return hit;
         begin = hit->distance;
     }

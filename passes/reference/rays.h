@@ -62,16 +62,17 @@ struct Departure {
     glm::dvec3 position{0}, normal{0};  ///< the side that they leave to
     std::optional<std::uint32_t> draw;  ///< whose surface it is, if that is known
 
-    /// The nearest hit up to a distance. What is of the same draw, lies within 60 degrees of the tangent plane and less above it
-    /// than the coarsest G-buffer's depth may be wrong by is the surface itself: facets of what the normal says is round.
+    /// The nearest hit up to a distance, but for surfaces that coincide with this one, and for its facets, which its normals show
+    /// as round: hits of the same draw, within 60 degrees of the tangent plane, that lie less above it than the error of the
+    /// coarsest G-buffer's depth.
     std::optional<Hit> closest(const RayScene&, const glm::dvec3& direction, double end) const;
 };
 
-/// Where the eye sees the scene, at a position that a G-buffer gave. Where it sees nothing within what the coarsest G-buffer's
-/// depth may be wrong by: off_surface_of_depth(), and everything is nearer by that, .09 % more light from 1 m away.
+/// The point of the scene that the eye sees at a position that a G-buffer gave. If it sees none within the error of the coarsest
+/// G-buffer's depth: off_surface_of_depth(), which is nearer to everything and gets .09 % more light from 1 m away.
 Departure seen_surface(const RayScene&, const glm::dvec3& position, const glm::dvec3& normal);
 
-/// The position, in view space, lifted off its surface as far as the coarsest G-buffer's depth may be wrong.
+/// The position, in view space, lifted off its surface by the error of the coarsest G-buffer's depth.
 glm::dvec3 off_surface_of_depth(const glm::dvec3& position, const glm::dvec3& normal);
 
 }  // namespace strata

@@ -13,7 +13,7 @@ namespace strata {
 /// channels, 0 wide where a texel is decided.
 double settle(const ReferenceImage& got, ReferenceImage& truth);
 
-/// Whether each texel has any.
+/// By texel: whether it has alternatives.
 std::vector<bool> has_alternatives(const ReferenceImage&);
 
 }  // namespace strata

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "captures/scenarios/shapes.h"
 #include "passes/occlusion/judge.h"
@@ -107,6 +108,18 @@ TEST(traced_visibility, before_a_wall_of_the_same_mesh_is_a_half_however_near_it
         tiny::add_triangles(frame, corners);
         EXPECT_NEAR(traced(frame, endless, {.side = 128, .batches = 1}, 1, {0, 0, -1}).at(0, 0).x, .5, .002) << distance;
     }
+}
+
+TEST(traced_visibility, of_coincident_planes_is_1) {
+    Frame frame = tiny::frame(1, 1);
+    add_rectangle(frame, {0, 0, 0}, {1, .3, 0}, {-.3, 1, 0});
+    add_rectangle(frame, {.1, .2, 0}, {2, .7, 0}, {.7, -2, 0});
+    // Turned, each lies before and behind the other by what doubles round.
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1), .4, glm::normalize(glm::dvec3(1, 2, .5)));
+    for (Draw& draw : frame.draws) draw.to_world = turn;
+    const glm::dvec3 normal = -glm::dvec3(turn[2]);
+    const ReferenceImage many = traced(frame, endless, {.side = 32, .batches = 1}, 8, normal);
+    for (const glm::dvec4& texel : many.texels) EXPECT_EQ(texel.x, 1);
 }
 
 TEST(traced_visibility, before_a_wall_within_the_radius_is_what_the_closed_form_says) {
