@@ -19,8 +19,8 @@ namespace strata {
 
 namespace {
 
-// How far off its surface a ray starts. Positions come from float depth: wrong by 6e-8 z along the eye's ray, which a ray that
-// leaves at a grazing angle of 0.1 degrees sees 600 times larger. In proportion to z alone, so in any unit of length.
+// Distance from its surface at which a ray starts. Positions come from float depth: wrong by 6e-8 z along the eye's ray, which a
+// ray that leaves at a grazing angle of 0.1 degrees sees 600 times larger. In proportion to z alone, so in any unit of length.
 double start(const Receiver& receiver) { return 1e-4 * receiver.position.z; }
 
 // What counts as infinitely far for the sun's rays, in meters.

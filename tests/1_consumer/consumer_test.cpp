@@ -235,8 +235,8 @@ std::uint64_t killed_after(std::chrono::microseconds time, const char* drawing) 
 TEST_F(Consumer, KilledFiftyTimesAtRandomMomentsEveryFrameItHadReportedIsReadBack) {
     std::mt19937_64 random(1);
     std::uint64_t in_all = 0;
-    constexpr std::uint64_t enough = 50;  // frames in all; a busy machine needs more kills
-    for (int kill = 0; kill < 50 || (in_all < enough && kill < 1000); ++kill) {
+    // A busy machine needs more kills until enough was recorded.
+    for (int kill = 0; kill < 50 || (in_all <= 50 && kill < 1000); ++kill) {
         fs::remove(capture_path);
         const auto moment = std::chrono::microseconds(random() % 300'000);
         const std::uint64_t reported = killed_after(moment, kill % 2 ? "--no-render" : nullptr);
@@ -247,7 +247,7 @@ TEST_F(Consumer, KilledFiftyTimesAtRandomMomentsEveryFrameItHadReportedIsReadBac
         EXPECT_GE(capture->frame_count(), reported);
         EXPECT_EQ(expect_frames(*capture), capture->frame_count()) << "kill " << kill << " after " << moment.count() << " us";
     }
-    EXPECT_GE(in_all, enough) << "hardly anything was recorded: the test shows nothing";
+    EXPECT_GT(in_all, 50u) << "hardly anything was recorded: the test shows nothing";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Whether estimates by random numbers have the mean of a closed form.
+// Tests of estimates by random numbers against a closed form.
 #pragma once
 
 #include <array>

@@ -32,7 +32,7 @@ Frame small(std::string_view scenario) {
     return frame;
 }
 
-/// What a frame that is changed as a whole differs by from the frame itself.
+/// A change of a whole frame, and the largest difference that it may make to the light.
 struct Change {
     std::string name;
     Similarity by;

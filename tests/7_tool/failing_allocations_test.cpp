@@ -36,7 +36,7 @@ constexpr VerbLine verbs[] = {
      .uses_device = true},
 };
 
-/// What they write, but for files that hold times.
+/// Files that the verbs write, but for those that hold times.
 constexpr const char* made_files[] = {"made.glb", "made.json", "made/a.f0000.exr", "made/a.f0000.png"};
 
 // Static objects are made before main(), in 54 allocations: a program of C++ ends there with 134.

@@ -1,7 +1,5 @@
 #include "tests/support/similar_frame.h"
 
-#include <vector>
-
 #include "capture_format/frame/draw.h"
 #include "capture_format/frame/light.h"
 #include "capture_format/frame/light_volume.h"
@@ -11,7 +9,7 @@
 namespace strata {
 namespace {
 
-/// Its members are named after what they do to a member of a frame.
+/// Moves parts of a frame; a function is named after the kind of part.
 class Mover {
 public:
     explicit Mover(const Similarity& by) : by_(by), linear_(by.scale * by.turn) {}

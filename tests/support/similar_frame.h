@@ -1,8 +1,6 @@
 // The same frame elsewhere: moved, turned, mirrored and in another size, so that a picture of it is the same.
 #pragma once
 
-#include <string_view>
-
 #include <glm/glm.hpp>
 
 #include "capture_format/frame/frame.h"

@@ -118,9 +118,9 @@ Technique lpv() {
              param<&LpvParams::propagation>({.name = "propagation",
                                              .high = 2,
                                              .fallback = propagation_linear,
-                                             .help = "negative radiance at a cell face; linear: kept; clamped: set to 0, which "
-                                                     "adds energy; energy_true: set to 0, "
-                                                     "the rest scaled to conserve energy",
+                                             .help =
+                                                 "treatment of negative radiance at cell faces; linear: kept; clamped: set to 0 "
+                                                 "(adds energy); energy_true: set to 0 and the rest scaled to conserve energy",
                                              .choices = propagations}),
              param<&LpvParams::faces>(
                  {.name = "faces",

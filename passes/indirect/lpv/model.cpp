@@ -220,7 +220,7 @@ ImageSet indirect_light(const StageInput& input, const LpvParams& params) {
     if (params.apply_resolution == resolution_half) halves = at_half_resolution(volumes.grids, surfaces);
     const ReferenceImage& normals = surfaces.normals();
     ReferenceImage indirect(normals.width, normals.height, normals.layers);
-    if (volumes.grids.empty()) return {{"indirect", indirect}};
+    if (volumes.grids.empty()) return {{"indirect", indirect}};  // no grid writes, and the image stays clear
     tbb::parallel_for(0u, normals.height, [&](std::uint32_t y) {
         for (std::uint32_t x = 0; x < normals.width; ++x)
             for (std::uint32_t sample = 0; sample < normals.layers; ++sample) {

@@ -86,7 +86,7 @@ void* _Znam(size_t bytes) { /* operator new[](std::size_t) */
     return of_library(bytes);
 }
 
-/* Of the first object, which is the program. */
+/* Finds the code of the first object, which is the program. */
 static int find_code(struct dl_phdr_info* object, size_t size, void* unused) {
     (void)size, (void)unused;
     for (int i = 0; i < object->dlpi_phnum; ++i)
