@@ -160,7 +160,9 @@ read_list
 chosen=()
 for i in "${!names[@]}"; do is_asked_for "${names[$i]}" && chosen+=("$i"); done
 [ ${#chosen[@]} -gt 0 ] || fatal "no mutant has a name like that"
-for i in "${chosen[@]}"; do apply "$i" dry || exit 2; done
+found=yes
+for i in "${chosen[@]}"; do apply "$i" dry || found=no; done
+[ $found = yes ] || exit 2
 [ $check = yes ] && { echo "${#chosen[@]} mutants, each found once"; exit 0; }
 [ -z "$(git status --porcelain --untracked-files=no)" ] || fatal "the working tree has changes; commit or stash them first"
 if [ -n "$limit" ]; then
