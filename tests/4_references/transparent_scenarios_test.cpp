@@ -63,7 +63,8 @@ TEST(TransparentScenarios, FiveFrontFacesOfSpheresLieOverTheMiddle) {
     const Frame frame = build("spheres_125", 65, 37);
     ASSERT_EQ(frame.draws.size(), 127u);
     std::vector<double> depths;
-    for (const Fragment& fragment : all_fragments(frame).at(32, 18)) depths.push_back(fragment.depth);
+    const FragmentLists fragments = all_fragments(frame);
+    for (const Fragment& fragment : fragments.at(32, 18)) depths.push_back(fragment.depth);
     std::ranges::sort(depths);
     ASSERT_EQ(depths.size(), 5u);
     for (std::size_t i = 0; i < depths.size(); ++i) EXPECT_NEAR(depths[i], 3.7 + double(i), .003) << i;
