@@ -18,6 +18,12 @@ struct Metric {
     bool is_detail = false;  ///< left out of tables for people
 };
 
+/// The name of a root mean square over sRGB-encoded display light (DisplayError in passes/reference/display_light.h).
+inline constexpr const char* display_rmse = "display rmse";
+
+/// Whether its value is a share of white, which people read in percent.
+inline bool is_of_white(const Metric& metric) { return metric.unit == "of white"; }
+
 using Truth = ImageSet (*)(const StageInput&);
 using Judge = std::vector<Metric> (*)(const ImageSet& result, const ImageSet& truth, const StageInput&);
 

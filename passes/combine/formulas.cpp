@@ -1,11 +1,11 @@
 #include "passes/combine/formulas.h"
 
-#include <algorithm>
 #include <string_view>
 
 #include "capture_format/frame/frame.h"
 #include "passes/reference/decoded.h"
 #include "passes/stage_input.h"
+#include "passes/tone_curve.h"
 
 namespace strata::combine {
 namespace {
@@ -48,11 +48,6 @@ glm::dvec3 composed(const StageInput& input, const ComposedSample& at, const Loo
     const SurfacePoint p = surface(input, at);
     const glm::dvec3 light(texel(input, "light", at, glm::dvec4(0)));
     return look.fogged(glm::dvec3(emission) + light + ambient(input, at, p, look), p) + shafts;
-}
-
-double tone_mapped(double exposed, double white) {
-    const double x = std::clamp(exposed, 0.0, white);
-    return x * (1 + x / (white * white)) / (1 + x);
 }
 
 double exposure_of(const StageInput& input) {

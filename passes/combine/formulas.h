@@ -30,9 +30,6 @@ glm::dvec3 composed(const StageInput&, const ComposedSample&, const Look&);
 /// The recorded fog, exponential: the share that remains of what is at a surface, and the fog's own color.
 Look recorded_look(const Frame&);
 
-/// The tone curve x (1 + x / white^2) / (1 + x) of exposed radiance, 0 below 0 and 1 from white on.
-double tone_mapped(double exposed, double white);
-
 /// From radiance to exposed radiance: the recorded exposure times the factor that the lens found, where it adapts.
 double exposure_of(const StageInput&);
 

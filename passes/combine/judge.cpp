@@ -1,6 +1,7 @@
 #include "passes/combine/judge.h"
 
 #include "passes/reference/difference.h"
+#include "passes/reference/display_light.h"
 #include "passes/stage_input.h"
 
 namespace strata {
@@ -8,8 +9,8 @@ namespace strata {
 std::vector<Metric> combine_judge(const ImageSet& result, const ImageSet& truth, const StageInput&) {
     std::vector<Metric> metrics;
     if (const auto display = result.find("display"); display != result.end()) {
-        const Difference error = difference(display->second, truth.at("display"));
-        metrics = {{"display rmse", "of white", error.rmse}, {"display worst", "of white", error.worst}};
+        const DisplayError error = display_error(display->second, truth.at("display"));
+        metrics = {{display_rmse, "of white", error.rmse}, {"display worst", "of white", error.worst}};
     }
     const auto color = truth.find("color");
     if (color != truth.end() && result.contains("color"))

@@ -12,8 +12,6 @@ namespace {
 constexpr double smallest_normal = 0x1p-14, largest_half = 65504;
 constexpr std::uint32_t codes_per_sign = 30720, first_normal = 0x0400, first_negative_normal = 0x8400;
 
-double linear_to_srgb(double c) { return c <= 0.0031308 ? c * 12.92 : 1.055 * std::pow(c, 1 / 2.4) - 0.055; }
-
 /// The nearest of levels + 1 equal steps of 0..1, as its number.
 std::uint32_t level(double value, std::uint32_t levels) {
     return static_cast<std::uint32_t>(std::floor(std::clamp(value, 0.0, 1.0) * levels + 0.5));

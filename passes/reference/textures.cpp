@@ -51,6 +51,8 @@ double bounded(double texels) { return std::isfinite(texels) ? std::clamp(texels
 
 double srgb_to_linear(double encoded) { return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4); }
 
+double linear_to_srgb(double linear) { return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055; }
+
 namespace {
 
 /// What bytes stand for.

@@ -10,8 +10,9 @@ namespace strata {
 struct Texture;     // capture_format/frame/texture.h
 struct TextureUse;  // capture_format/frame/material.h
 
-/// The piecewise curve of IEC 61966-2-1, display value to linear.
+/// The piecewise curve of IEC 61966-2-1, display value to linear, and back.
 double srgb_to_linear(double encoded);
+double linear_to_srgb(double linear);
 
 /// One texel of one mip, decoded to linear; x and y inside the mip.
 glm::dvec4 texel(const Texture&, std::uint32_t mip, std::uint32_t x, std::uint32_t y);

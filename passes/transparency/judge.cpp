@@ -9,14 +9,13 @@
 #include "passes/reference/difference.h"
 #include "passes/reference/settle.h"
 #include "passes/stage_input.h"
+#include "passes/tone_curve.h"
 
 namespace strata {
 namespace {
 
-/// What `display` makes of a radiance: x (1 + x / Wt^2) / (1 + x) after exposure, at most 1.
 double displayed(const Frame& frame, double radiance) {
-    const double x = std::max(0., radiance * double(frame.view.exposure)), white = double(frame.film.white);
-    return std::min(1., x * (1 + x / (white * white)) / (1 + x));
+    return tone_mapped(radiance * double(frame.view.exposure), double(frame.film.white));
 }
 
 bool off_by_a_step(const Frame& frame, const glm::dvec4& got, const glm::dvec4& wanted) {

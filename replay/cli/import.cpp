@@ -13,7 +13,7 @@
 #include "capture_format/import/gltf.h"
 #include "capture_format/import/seen.h"
 #include "capture_format/recorder.h"
-#include "passes/combine/formulas.h"
+#include "passes/tone_curve.h"
 #include "replay/cli/given_options.h"
 #include "replay/cli/verb_options.h"
 #include "replay/plural.h"
@@ -134,8 +134,7 @@ std::optional<Texture> developed(const Frame& frame, std::span<const glm::dvec3>
     std::vector<glm::vec4> texels;
     for (const glm::dvec3& radiance : preview) {
         glm::dvec4 texel(1);
-        for (int c = 0; c < 3; ++c)
-            texel[c] = combine::tone_mapped(radiance[c] * double(frame.view.exposure), double(frame.film.white));
+        for (int c = 0; c < 3; ++c) texel[c] = tone_mapped(radiance[c] * double(frame.view.exposure), double(frame.film.white));
         texels.emplace_back(texel);
     }
     const auto bytes = std::as_bytes(std::span(texels));

@@ -34,7 +34,7 @@ struct ReportArguments {
     ChoiceOptions choices;
     std::string stage = "transparency";
     std::vector<std::string> sweeps, techniques;
-    std::string error, within, error_at = "stage";
+    std::string error, within, error_at = "stage", metric = "display";
     bool defaults = false;
     std::size_t frame = 0;
     std::optional<std::size_t> repeats;
@@ -147,6 +147,7 @@ Result<ReportRequest> request_of(const ReportArguments& options) {
     if (options.repeats) wanted.repeats = *options.repeats;
     else wanted.least_repeats = 3;
     if (options.error_at == "picture") wanted.error_at = ErrorAt::picture;
+    if (options.metric == "relative") wanted.ranked_by = RankedBy::relative_rmse;
     const auto stage = stage_called(options.stage);
     if (!stage) return stage.error();
     wanted.stage = *stage;
@@ -200,11 +201,11 @@ Result<void> report_hard_cases(const ReportArguments& options) {
 Result<void> report(const ReportArguments& options, const CLI::App& app) {
     if (const auto fits = check_ending(options.output); !fits) return fits;
     if (options.hard_cases) {
-        const auto fits =
-            check_not_given(app,
-                            {"--allow-partial", "--use", "--set", "--force", "--samples", "--stage", "--techniques", "--defaults",
-                             "--error", "--error-at", "--within", "--sweep", "--frame", "--repeats", "--minutes", "--flicker"},
-                            "--hard-cases brings frames and settings of its own");
+        const auto fits = check_not_given(
+            app,
+            {"--allow-partial", "--use", "--set", "--force", "--samples", "--stage", "--techniques", "--defaults", "--error",
+             "--error-at", "--metric", "--within", "--sweep", "--frame", "--repeats", "--minutes", "--flicker"},
+            "--hard-cases brings frames and settings of its own");
         return fits ? report_hard_cases(options) : fits;
     }
     if (options.captures.empty())
@@ -216,10 +217,11 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
     request.on_row = [](const Measurement& row, std::size_t place, std::size_t of) {
         const std::string row_label = label(row.technique, row.settings);
         if (!row.accuracy.not_supported.empty()) return to_stderr("strata: {} of {}  {}: not supported\n", place, of, row_label);
+        const RankingError ranking = ranking_error(row);
         const std::string time = row.time ? fmt::format("time {}", short_number(row.time->median))
                                           : fmt::format("{} ms", short_number(row.stage_ms.median));
-        to_stderr("strata: {} of {}  {}: {} {}, {}\n", place, of, row_label, ranking_name(row),
-                  short_number(ranking_metric(row).value), time);
+        to_stderr("strata: {} of {}  {}: {} {}, {}\n", place, of, row_label, ranking.name,
+                  ranking.text(ranking_metric(row).value), time);
     };
     const Progress progress = progress_line();
     const StopAtSignal signal;
@@ -275,11 +277,17 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
                        "techniques to measure with their settings, like 'moments kind=power6,weighted'; default: all");
     techniques->delimiter(',')->allow_extra_args(false);
     app.add_flag("--defaults", options->defaults, "measure each technique only at its default settings")->excludes(techniques);
-    app.add_option("--error", options->error,
-                   "answer which technique, the baseline aside, is cheapest with at most this error, like 1%");
+    app.add_option(
+        "--error", options->error,
+        "answer which technique, the baseline aside, is cheapest with at most this error, like 1%: of white, or relative "
+        "with --metric relative");
     app.add_option("--error-at", options->error_at,
                    "measure errors of the stage's output, or of the picture that the later stages make of it")
         ->check(one_of({"stage", "picture"}));
+    app.add_option("--metric", options->metric,
+                   "rank rows by the error of what a display shows of radiance (display, the default), or by that of radiance "
+                   "(relative), which a single bright sample can decide")
+        ->check(one_of({"display", "relative"}));
     app.add_option("--within", options->within,
                    "answer which technique, the baseline aside, is most accurate within this multiple of its time, like 2x");
     app.add_option("--sweep", options->sweeps,

@@ -31,13 +31,13 @@ std::optional<std::size_t> least(std::span<const Standing> rows, std::optional<s
 }
 
 std::string metrics(const Standing& row, const AnswerNames& names) {
-    const std::string error = fmt::format("{} {}", names.error, short_number(*row.error));
+    const std::string error = fmt::format("{} {}", names.error.name, names.error.text(*row.error));
     return names.unit.empty() ? error : fmt::format("{}, {:.2f}x", error, row.time);
 }
 
 std::string limits(const Question& asked, const AnswerNames& names) {
     std::string text;
-    if (asked.error) text += fmt::format("{} up to {}", names.error, short_number(*asked.error));
+    if (asked.error) text += fmt::format("{} up to {}", names.error.name, names.error.text(*asked.error));
     if (asked.within) text += fmt::format("{}within {}x of {}", asked.error ? " " : "", short_number(*asked.within), names.unit);
     return text;
 }

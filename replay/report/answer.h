@@ -31,7 +31,7 @@ Answer find_answer(std::span<const Standing>, std::optional<std::size_t> baselin
 /// What a sentence needs to know of the rows.
 struct AnswerNames {
     std::vector<std::string> rows;
-    std::string error;               ///< "relative rmse"
+    RankingError error;
     std::string unit;                ///< "alpha_blend"; empty: no time could be measured in units of it
     std::string baseline_note = {};  ///< what its time contains, or nothing
 };

@@ -95,6 +95,7 @@ ordered_json json_of(const Report& report) {
                  {"repeats", report.repeats},
                  {"truth", report.truths.empty() ? std::string() : report.truths.front().is},
                  {"error_at", report.error_at == ErrorAt::picture ? "picture" : "stage"},
+                 {"ranked_by", ranking_error(report).name},
                  {"time_unit", report.time_unit}});
     for (const ReportTruth& truth : report.truths) json["truths"].push_back(json_of(truth));
     if (report.flicker)
@@ -118,8 +119,8 @@ std::string as_json(std::span<const Report> reports, const Pool& pool) {
     json["stage"] = name(pool.stage);
     for (const Report& report : reports) json["reports"].push_back(json_of(report));
     ordered_json& together = json["pooled"] = {{"captures", pool.captures},
-                                               {"mean", "geometric; arithmetic of bytes"},
-                                               {"error", pool.error},
+                                               {"mean", "geometric; arithmetic of bytes and of display rmse"},
+                                               {"error", pool.error.name},
                                                {"time_unit", pool.time_unit},
                                                {"rows", rows_json(sheet_of(pool))}};
     together["best_within"] = json_of_best(pool.rows, standings(pool), pool.time_unit);

@@ -34,14 +34,14 @@ bool has_coverage_flicker(const Report& report) {
 
 /// The most accurate row of each budget, with what it is ranked by. Without a time unit time has none.
 template <typename Row>
-std::string best_rows(const std::vector<Row>& rows, const std::vector<Standing>& standings, std::string_view error,
+std::string best_rows(const std::vector<Row>& rows, const std::vector<Standing>& standings, const RankingError& error,
                       std::string_view unit) {
-    std::string text = fmt::format("\nmost accurate by {}{}\n", error,
+    std::string text = fmt::format("\nmost accurate by {}{}\n", error.name,
                                    unit.empty() ? "" : fmt::format(", with a time in units of {}'s", below_stage(unit)));
     for (const Budget& budget : budgets()) {
         if (budget.cost == &Standing::time && unit.empty()) continue;
         const auto best = best_within(standings, budget);
-        text += fmt::format("   {:<22} {:<8} {}\n", name(budget), best ? short_number(*standings[*best].error) : "",
+        text += fmt::format("   {:<22} {:<8} {}\n", name(budget), best ? error.text(*standings[*best].error) : "",
                             best ? short_label(rows[*best]) : "nothing");
     }
     return text;
@@ -49,7 +49,7 @@ std::string best_rows(const std::vector<Row>& rows, const std::vector<Standing>&
 
 std::string answer_text(const Report& report) {
     if (!report.question.is_asked()) return "";
-    AnswerNames names{.rows = {}, .error = ranking_name(report), .unit = below_stage(report.time_unit)};
+    AnswerNames names{.rows = {}, .error = ranking_error(report), .unit = below_stage(report.time_unit)};
     for (const Measurement& row : report.rows) names.rows.push_back(short_label(row));
     const auto baseline = baseline_of(report);
     if (baseline && report.rows[*baseline].sort_ms)
@@ -203,13 +203,14 @@ Page page_of(const Report& report) {
     const bool has_ties = std::ranges::any_of(report.rows, &Measurement::is_tied);
     page.emplace_back(legends(report.rows) + std::string(has_ties ? tie_legend : "") + implementation_text(report) +
                       light_text(report) + mirrors_text(report) +
-                      best_rows(report.rows, standings(report.rows), ranking_name(report), report.time_unit) +
+                      best_rows(report.rows, standings(report.rows), ranking_error(report), report.time_unit) +
                       counters_text(report) + stopped + answer_text(report));
     return page;
 }
 
 Page page_of(const Pool& pool) {
-    return {fmt::format("{} of {}: geometric means\n\n", name(pool.stage), plural(pool.captures, "capture")), sheet_of(pool),
+    const char* means = pool.error.is_of_white ? "means of errors, geometric means of times" : "geometric means";
+    return {fmt::format("{} of {}: {}\n\n", name(pool.stage), plural(pool.captures, "capture"), means), sheet_of(pool),
             "\n" + legends(pool.rows) + best_rows(pool.rows, standings(pool), pool.error, pool.time_unit)};
 }
 

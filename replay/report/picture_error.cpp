@@ -1,10 +1,10 @@
 #include "replay/report/picture_error.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "passes/frame_images.h"
 #include "passes/reference/difference.h"
+#include "passes/reference/display_light.h"
 #include "passes/reference/settle.h"
 #include "passes/stage_input.h"
 #include "passes/stages.h"
@@ -85,18 +85,12 @@ Result<void> add_alternatives(Session& session, const Request& request, Stage st
 
 /// Smaller is better; shares in percent of the pixels that are compared.
 std::vector<Metric> metrics_of(const ReferenceImage& got, const ReferenceImage& wanted) {
-    const Difference error = difference(got, wanted);
-    std::size_t off = 0, compared = 0;
-    for (std::size_t i = 0; i < wanted.texels.size(); ++i) {
-        if (!decided(got, wanted, i)) continue;
-        ++compared;
-        const auto is_off = [&](int c) { return !(std::abs(signed_error(got.texels[i][c], wanted.texels[i][c])) <= 1. / 255); };
-        off += is_off(0) || is_off(1) || is_off(2);
-    }
-    return {{"display rmse", "of white", error.rmse},
-            {"relative rmse", "", error.relative},
+    const DisplayError error = display_error(got, wanted);
+    return {{display_rmse, "of white", error.rmse},
+            {"relative rmse", "", difference(got, wanted).relative},
             {"worst", "of white", error.worst},
-            {"off by 1/255", "%", 100 * double(off) / double(std::max<std::size_t>(1, compared))}};
+            {"off by 1/255", "%", 100 * error.over_1_255},
+            {"over 5/255", "%", 100 * error.over_5_255}};
 }
 
 }  // namespace
@@ -127,7 +121,9 @@ Result<void> judge_picture(Session& session, Request request, const PictureTruth
     const ReferenceImage got = in_double(display);
     ReferenceImage wanted = truth.display, touched = truth.touched;
     accuracy.undecided_share = undecided_share(wanted);
-    accuracy.undecided_bound = Metric{"display rmse", "of white", settle(got, wanted)};
+    ReferenceImage encoded = srgb_encoded(wanted);
+    accuracy.undecided_bound = Metric{display_rmse, "of white", settle(srgb_encoded(got), encoded)};
+    settle(got, wanted);
     accuracy.unjudged_share = undecided_share(wanted);
     settle(got, touched);
     if (accuracy.unjudged_share == 1) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <numeric>
 #include <tuple>
 
 namespace strata {
@@ -10,27 +12,45 @@ namespace {
 
 constexpr double least_figure = 1e-5;
 
+/// A row and the name of its capture.
+struct Source {
+    const Measurement* row;
+    std::string_view capture;
+};
+
 /// The mean of a figure over rows; nothing when one of them lacks it.
-std::optional<double> mean_of(std::span<const Measurement* const> rows,
+std::optional<double> mean_of(std::span<const Source> rows,
                               const std::function<std::optional<double>(const Measurement&)>& metric) {
     std::vector<double> values;
-    for (const Measurement* row : rows)
-        if (const auto value = metric(*row)) values.push_back(*value);
+    for (const Source& from : rows)
+        if (const auto value = metric(*from.row)) values.push_back(*value);
     return values.empty() || values.size() < rows.size() ? std::nullopt : std::optional(geometric_mean(values));
 }
 
-PooledRow pooled_row(std::span<const Measurement* const> rows) {
+double ranking_value(const Source& from) { return ranking_metric(*from.row).value; }
+
+double mean_error(std::span<const Source> rows, const RankingError& error) {
+    std::vector<double> errors;
+    std::ranges::transform(rows, std::back_inserter(errors), ranking_value);
+    if (!error.is_of_white) return geometric_mean(errors);
+    return std::accumulate(errors.begin(), errors.end(), 0.) / double(errors.size());
+}
+
+PooledRow pooled_row(std::span<const Source> rows, const RankingError& error) {
     double bytes = 0;
-    for (const Measurement* row : rows) bytes += row->bytes_per_pixel / double(rows.size());
+    for (const Source& from : rows) bytes += from.row->bytes_per_pixel / double(rows.size());
+    const Source worst = *std::ranges::max_element(rows, {}, ranking_value);
     return {
-        .technique = rows.front()->technique,
-        .settings = rows.front()->settings,
-        .error = *mean_of(rows, [](const Measurement& row) { return ranking_metric(row).value; }),
+        .technique = rows.front().row->technique,
+        .settings = rows.front().row->settings,
+        .error = mean_error(rows, error),
+        .worst_error = ranking_value(worst),
+        .worst_capture = std::string(worst.capture),
         .time = mean_of(rows, [](const Measurement& row) { return row.time ? std::optional(row.time->median) : std::nullopt; }),
         .bytes_per_pixel = bytes,
         .flicker = mean_of(rows, [](const Measurement& row) { return row.flicker; }),
         .captures = rows.size(),
-        .has_other_truth = std::ranges::any_of(rows, [](const Measurement* row) { return row->has_other_truth; })};
+        .has_other_truth = std::ranges::any_of(rows, [](const Source& from) { return from.row->has_other_truth; })};
 }
 
 void mark_fronts(Pool& pool) {
@@ -52,7 +72,7 @@ double geometric_mean(std::span<const double> values) {
 
 Pool pooled(std::span<const Report> reports) {
     Pool pool;
-    std::vector<std::vector<const Measurement*>> rows;  // of equal technique and settings
+    std::vector<std::vector<Source>> rows;  // of equal technique and settings
     bool one_unit = true;
     for (const Report& report : reports) {
         pool.stage = report.stage;
@@ -62,17 +82,18 @@ Pool pooled(std::span<const Report> reports) {
         ++pool.captures;
         for (const Measurement& row : report.rows) {
             if (row.accuracy.technique_errors.empty()) continue;
-            pool.error = ranking_metric(row).name;
+            pool.error = {ranking_metric(row).name, is_of_white(ranking_metric(row))};
             const auto same = [&](const auto& others) {
-                return std::tie(others.front()->technique, others.front()->settings) == std::tie(row.technique, row.settings);
+                const Measurement& other = *others.front().row;
+                return std::tie(other.technique, other.settings) == std::tie(row.technique, row.settings);
             };
-            const auto known = std::ranges::find_if(rows, same);
-            if (known == rows.end()) rows.push_back({&row});
-            else known->push_back(&row);
+            auto known = std::ranges::find_if(rows, same);
+            if (known == rows.end()) known = rows.emplace(known);
+            known->push_back({&row, report.capture_name});
         }
     }
     if (!one_unit) pool.time_unit.clear();
-    for (const auto& same : rows) pool.rows.push_back(pooled_row(same));
+    for (const auto& same : rows) pool.rows.push_back(pooled_row(same, pool.error));
     mark_fronts(pool);
     std::ranges::stable_sort(pool.rows, {}, [&](const PooledRow& row) {
         return std::tuple(pool.captures - row.captures, row.has_other_truth, row.error);

@@ -11,10 +11,12 @@
 namespace strata {
 
 /// A technique with its settings over all captures whose frame needs the stage. Geometric means: half on one frame and twice on
-/// another cancel, whatever the frames' own errors are.
+/// another cancel, whatever the frames' own errors are. Shares of white are of one scale on all frames: their mean is arithmetic.
 struct PooledRow {
     std::string technique, settings;
     double error = 0;
+    double worst_error = 0;      ///< of a capture
+    std::string worst_capture;   ///< its name
     std::optional<double> time;  ///< in the time unit; none where a capture has none
     double bytes_per_pixel = 0;  ///< arithmetic mean: it may be 0
     std::optional<double> flicker;
@@ -26,7 +28,7 @@ struct PooledRow {
 struct Pool {
     Stage stage = Stage::transparency;
     std::size_t captures = 0;     ///< whose frame needs the stage
-    std::string error;            ///< name of what PooledRow::error is the mean of
+    RankingError error;           ///< what PooledRow::error is the mean of
     std::string time_unit;        ///< as in Report; empty when not all have the same
     std::vector<PooledRow> rows;  ///< those that can do all captures first, then the ranked ones, then the most accurate first
 };

@@ -4,7 +4,13 @@
 
 #include <fmt/core.h>
 
+#include "replay/tables/table.h"
+
 namespace strata {
+
+std::string RankingError::text(double error) const {
+    return is_of_white ? short_number(100 * error) + " %" : short_number(error);
+}
 
 std::vector<bool> pareto_front(std::span<const Standing> rows, Cost cost) {
     const auto beats = [&](const Standing& one, const Standing& other) {

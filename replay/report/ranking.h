@@ -8,6 +8,13 @@
 
 namespace strata {
 
+/// What rows are ranked by: "relative rmse touched".
+struct RankingError {
+    std::string name;
+    bool is_of_white = false;  ///< a share of white, which people read in percent
+    std::string text(double error) const;
+};
+
 /// What a row is ranked by. Without an error it is not ranked: the technique cannot do the frame.
 struct Standing {
     std::optional<double> error;

@@ -96,13 +96,16 @@ void put_unit_first(std::vector<Variant>& rows) {
 
 const Metric& ranking_metric(const Measurement& row) {
     const std::vector<Metric>& metrics = row.accuracy.touched.empty() ? row.accuracy.technique_errors : row.accuracy.touched;
-    const auto relative = std::ranges::find(metrics, "relative rmse", &Metric::name);
-    return relative == metrics.end() ? metrics.front() : *relative;
+    auto found = metrics.end();
+    if (row.ranked_by == RankedBy::display_rmse) found = std::ranges::find(metrics, display_rmse, &Metric::name);
+    if (found == metrics.end()) found = std::ranges::find(metrics, "relative rmse", &Metric::name);
+    return found == metrics.end() ? metrics.front() : *found;
 }
 
-std::string ranking_name(const Measurement& row) {
+RankingError ranking_error(const Measurement& row) {
     const bool is_touched = !row.accuracy.touched.empty() && row.accuracy.touched_share < 1;
-    return ranking_metric(row).name + (is_touched ? " touched" : "");
+    const Metric& metric = ranking_metric(row);
+    return {metric.name + (is_touched ? " touched" : ""), is_of_white(metric)};
 }
 
 std::vector<Standing> standings(std::span<const Measurement> rows) {

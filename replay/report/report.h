@@ -37,9 +37,14 @@ inline constexpr std::string_view other_truth_note = "measured against another t
 /// What errors are of: the stage's first output, or the picture that later stages make of it.
 enum class ErrorAt { stage, picture };
 
+/// What rows are ranked by where their stage has it: the error of what a display shows of radiance, or that of radiance itself,
+/// which the brightest sample decides.
+enum class RankedBy { display_rmse, relative_rmse };
+
 struct ReportRequest {
     Request base;  ///< frame, other stages' choices
     ErrorAt error_at = ErrorAt::stage;
+    RankedBy ranked_by = RankedBy::display_rmse;
     Stage stage = Stage::transparency;
     std::vector<std::string> techniques;  ///< "technique key=value ..."; none: every technique of the stage
     bool defaults_only = false;           ///< without the techniques' own variants
@@ -60,6 +65,7 @@ struct Measurement {
     std::string truth = {};           ///< ReportTruth::name
     /// Than the report's first row, the time unit's: it answers another question, often an easier one, and is not ranked.
     bool has_other_truth = false;
+    RankedBy ranked_by = RankedBy::display_rmse;
     Accuracy accuracy;
     double tolerance = 0;               ///< of the technique, for accuracy.model_rmse
     double tolerated_worst = HUGE_VAL;  ///< and for accuracy.model_worst
@@ -111,11 +117,12 @@ Result<Report> make_report(Session&, const ReportRequest&, const Progress& = {})
 
 /// Marks the rows that no other row beats in both error and time, and in both error and memory.
 void mark_fronts(std::vector<Measurement>&);
-/// What a supported row is ranked and pooled by: frames differ in brightness and in how much of them the stage touches, so the
-/// relative error over what it touches where there is one; else the first figure of its judge.
+/// What a supported row is ranked and pooled by: frames differ in brightness and in how much of them the stage touches, so an
+/// error over what it touches where there is one. That of Measurement::ranked_by, else relative rmse, else the first figure of
+/// its judge.
 const Metric& ranking_metric(const Measurement&);
-/// Its name, and whether it is over what the stage touches alone: "relative rmse touched".
-std::string ranking_name(const Measurement&);
+/// Its name says whether it is over what the stage touches alone.
+RankingError ranking_error(const Measurement&);
 /// The rows by their ranking figures; time in the time unit, or in milliseconds without one. Rows that are not ranked have no
 /// error.
 std::vector<Standing> standings(std::span<const Measurement>);

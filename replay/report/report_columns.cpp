@@ -23,6 +23,9 @@ constexpr std::array metric_helps{
         "relative rmse",
         "root mean square of the error over the color channels, divided by that of the truth; in `diff` by that of A, named "
         "first; in expectations by that of the stored image"},
+    FigureHelp{display_rmse,
+               "root mean square of the error of display values: radiance by the recorded exposure and tone curve, sRGB-encoded"},
+    FigureHelp{"over 5/255", "percentage of pixels of which a display value is off by more than 5 of 255 steps"},
     FigureHelp{"rmse", "root mean square of the error"},
     FigureHelp{"worst", "largest error of a sample"},
     FigureHelp{"bias", "mean error, negative: too dark", Better::nearer_zero},
@@ -31,8 +34,10 @@ constexpr std::array metric_helps{
     FigureHelp{"over 10 %", "percentage of samples with a relative error above 10 %"},
     FigureHelp{"FLIP", "mean perceived difference, 0 to 1"}};
 
-std::string with_unit(const std::string& title, const std::string& unit) {
-    return unit.empty() ? title : fmt::format("{} {}", title, unit);
+/// "rmse radiance", "display rmse, % of white".
+std::string with_unit(const Metric& metric) {
+    if (is_of_white(metric)) return title_of({metric.name, true});
+    return metric.unit.empty() ? metric.name : fmt::format("{} {}", metric.name, metric.unit);
 }
 
 Column<Row> metric_column(const Metric& metric) {
@@ -40,12 +45,13 @@ Column<Row> metric_column(const Metric& metric) {
     const bool is_known = known != metric_helps.end();
     const unsigned in_tables = in_csv | in_window | (metric.is_detail ? 0u : unsigned{in_text});
     return {{.key = metric.name,
-             .title = with_unit(metric.name, metric.unit),
+             .title = with_unit(metric),
              .help = is_known ? std::string(known->help) : "",
+             .kind = is_of_white(metric) ? CellKind::share : CellKind::number,
              .better = is_known ? known->better : Better::less,
              .shown = in_tables,  // JSON has them in technique_error, with their units
              .unit = metric.unit,
-             .short_title = metric.name,
+             .short_title = is_of_white(metric) ? metric.name + " %" : metric.name,
              .label = metric.unit.empty() ? metric.name : fmt::format("{} ({})", metric.name, metric.unit),
              .role = Role::error,
              .is_detail = metric.is_detail},
@@ -71,13 +77,16 @@ ColumnsOfRows names() {
 
 ColumnsOfRows errors(const Report& report) {
     ColumnsOfRows columns;
-    if (const Row* first = first_measured(report))
+    const Row* first = first_measured(report);
+    if (first)
         for (const Metric& metric : errors_of(*first)) columns.push_back(metric_column(metric));
+    const bool is_shown = leaves_much(report) || (first && ranking_metric(*first).is_detail);
     columns.push_back({{.key = "ranking_error",
-                        .title = ranking_name(report),
+                        .title = title_of(ranking_error(report)),
                         .help = "error over the samples that the stage changes, where these are not all; rows are ranked by it",
+                        .kind = ranking_error(report).is_of_white ? CellKind::share : CellKind::number,
                         .better = Better::less,
-                        .shown = in_csv | (leaves_much(report) ? unsigned{in_text} : 0u)},
+                        .shown = in_csv | (is_shown ? unsigned{in_text} : 0u)},
                        [](const Row& row) { return ranking_metric(row).value; }});
     columns.push_back(
         {{.key = "touched_share",
@@ -315,9 +324,11 @@ const Measurement* first_measured(const Report& report) {
     return row == report.rows.end() ? nullptr : &*row;
 }
 
-std::string ranking_name(const Report& report) {
+std::string title_of(const RankingError& error) { return error.name + (error.is_of_white ? ", % of white" : ""); }
+
+RankingError ranking_error(const Report& report) {
     const Measurement* row = first_measured(report);
-    return row ? ranking_name(*row) : "error";
+    return row ? ranking_error(*row) : RankingError{"error"};
 }
 
 bool leaves_much(const Report& report) {

@@ -78,6 +78,7 @@ Result<void> RowMaker::make_group(std::size_t end, const Progress& tell) {
                                  .settings = variant.settings,
                                  .truth = std::string(row_truth.of.name),
                                  .has_other_truth = row_truths_->of_row[i] != row_truths_->of_row.front(),
+                                 .ranked_by = wanted_->ranked_by,
                                  .accuracy = *std::move(accuracy),
                                  .tolerance = tolerance.rmse,
                                  .tolerated_worst = tolerance.worst,

@@ -6,6 +6,7 @@
 #include "capture_format/frame/frame.h"
 #include "passes/frame_images.h"
 #include "passes/reference/difference.h"
+#include "passes/reference/display_light.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/raster.h"
 #include "passes/reference/settle.h"
@@ -124,13 +125,41 @@ std::string incomparable_with_truth(const StageInfo& of_stage, const ImageSet& r
     return {};
 }
 
-/// How different the stage's picture looks from its truth; of stages that make radiance.
-std::optional<double> flip_of(const StageInfo& stage, const ImageSet& result, const ImageSet& truth) {
+/// The radiance that a stage makes, and what its truth has.
+struct Radiance {
+    const ReferenceImage& got;
+    const ReferenceImage& wanted;
+};
+
+/// Nothing of a stage that makes no radiance.
+std::optional<Radiance> radiance_of(const StageInfo& stage, const ImageSet& result, const ImageSet& truth) {
     const std::string_view picture = stage.outputs.front();
     const FrameImageRow* row = find_frame_image(picture);
     const auto got = result.find(picture), wanted = truth.find(picture);
     if (!row || row->content != Content::radiance || got == result.end() || wanted == truth.end()) return {};
-    return radiance_flip(color_planes(wanted->second), color_planes(got->second)).mean;
+    return Radiance{got->second, wanted->second};
+}
+
+/// Errors of the radiance by itself as the frame's recorded exposure and tone curve show it, behind the figures of a judge that
+/// has no such errors.
+void add_display_errors(const Radiance& radiance, const Frame& frame, const std::vector<bool>& changed,
+                        std::vector<Metric>& metrics) {
+    if (std::ranges::count(metrics, display_rmse, &Metric::name) > 0) return;
+    const auto shown = [&](const ReferenceImage& image) {
+        return tone_mapped(image, double(frame.view.exposure), double(frame.film.white));
+    };
+    const DisplayError error = display_error(shown(radiance.got), shown(radiance.wanted), changed);
+    metrics.push_back({display_rmse, "of white", error.rmse, true});
+    metrics.push_back({"over 5/255", "%", 100 * error.over_5_255, true});
+}
+
+/// By pixel: whether a decided sample is left of an image of which only what the stage changes was kept.
+std::vector<bool> changed_pixels(const ReferenceImage& touched) {
+    const std::size_t pixels = std::size_t(touched.width) * touched.height;
+    std::vector<bool> changed(pixels);
+    for (std::size_t i = 0; i < touched.texels.size(); ++i)
+        if (!is_undecided(touched, i)) changed[i % pixels] = true;
+    return changed;
 }
 
 void judge_by_model(const JudgedStage& stage, Accuracy& accuracy) {
@@ -152,15 +181,13 @@ void judge_by_model(const JudgedStage& stage, Accuracy& accuracy) {
 }
 
 /// Leaves out what the stage leaves as it finds it, which a step back of the camera makes more of: the share that remains;
-/// nothing where the stage makes no radiance, and where nothing would remain.
+/// nothing where nothing would remain.
 std::optional<double> keep_touched(const StageInfo& stage, const ImageSet& before, ImageSet& truth) {
     const std::string_view picture = stage.outputs.front();
-    const FrameImageRow* row = find_frame_image(picture);
-    const auto wanted = truth.find(picture);
-    if (!row || row->content != Content::radiance || wanted == truth.end()) return {};
+    ReferenceImage& wanted = truth.find(picture)->second;
     const auto found = before.find(picture);
-    const bool is_drawn_over = found != before.end() && same_extent(found->second, wanted->second);
-    return strata::keep_touched(wanted->second, is_drawn_over ? &found->second : nullptr);
+    const bool is_drawn_over = found != before.end() && same_extent(found->second, wanted);
+    return strata::keep_touched(wanted, is_drawn_over ? &found->second : nullptr);
 }
 
 /// By more than rounding: a truth that is kept for several rows was scaled to the frame's unit of light and back.
@@ -178,6 +205,7 @@ double undecided_share(const ImageSet& truth, std::string_view image) {
 std::vector<Metric> infinite_metrics(const StageInfo& of_stage, const ImageSet& truth, const StageInput& input) {
     if (!truth.contains(of_stage.outputs.front())) return {{"error", "", HUGE_VAL}};
     std::vector<Metric> metrics = of_stage.judge(truth, truth, input);
+    if (const auto radiance = radiance_of(of_stage, truth, truth)) add_display_errors(*radiance, input.frame, {}, metrics);
     for (Metric& metric : metrics) metric.value = HUGE_VAL;
     return metrics;
 }
@@ -213,10 +241,16 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
         }
     }
     accuracy.technique_errors = of_stage.judge(stage.result, truth, input);
-    accuracy.flip = flip_of(of_stage, stage.result, truth);
+    const auto radiance = radiance_of(of_stage, stage.result, truth);
+    if (!radiance) return;
+    add_display_errors(*radiance, stage.frame, {}, accuracy.technique_errors);
+    accuracy.flip = radiance_flip(color_planes(radiance->wanted), color_planes(radiance->got)).mean;
+    const ReferenceImage whole = radiance->wanted;
     if (const auto share = keep_touched(of_stage, stage.before, truth)) {
         accuracy.touched_share = *share;
         accuracy.touched = of_stage.judge(stage.result, truth, input);
+        // Of a pixel all samples show, also those that the stage leaves.
+        add_display_errors({radiance->got, whole}, stage.frame, changed_pixels(radiance->wanted), accuracy.touched);
     }
 }
 

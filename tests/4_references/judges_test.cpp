@@ -13,6 +13,7 @@
 #include "passes/indirect/judge.h"
 #include "passes/lighting/judge.h"
 #include "passes/reference/difference.h"
+#include "passes/reference/display_light.h"
 #include "passes/reference/place_code.h"
 #include "passes/reference/shade.h"
 #include "passes/reference/standard_error.h"
@@ -52,6 +53,65 @@ TEST(difference, is_of_every_color_channel_every_texel_and_every_layer) {
             EXPECT_DOUBLE_EQ(d.worst, 2);
             EXPECT_DOUBLE_EQ(d.bias, -2. / 12);
         }
+}
+
+TEST(display_error, is_of_values_as_srgb_encodes_them) {
+    ReferenceImage got(2, 1, 1, glm::dvec4(.5)), wanted = got;
+    wanted.texels[1].y = .25;
+    const DisplayError error = display_error(got, wanted);
+    const double off = .7353569830524495 - .5370987304831942;  // IEC 61966-2-1 of .5 and .25
+    EXPECT_NEAR(error.worst, off, 1e-15);
+    EXPECT_NEAR(error.rmse, off / std::sqrt(6.), 1e-15);
+    EXPECT_EQ(error.over_1_255, .5);
+    EXPECT_EQ(error.over_5_255, .5);
+    EXPECT_EQ(error.pixels, 2u);
+    // Below .0031308 the curve is a line of slope 12.92: 2/255 apart is over 1 step and not over 5.
+    got.texels[1] = glm::dvec4(0), wanted.texels[1] = glm::dvec4(2 / 255. / 12.92);
+    EXPECT_NEAR(display_error(got, wanted).rmse, 2 / 255. / std::sqrt(2.), 1e-15);
+    EXPECT_EQ(display_error(got, wanted).over_1_255, .5);
+    EXPECT_EQ(display_error(got, wanted).over_5_255, 0);
+}
+
+TEST(display_error, is_of_what_a_pixel_shows) {
+    ReferenceImage got(2, 1, 2), wanted = got;
+    got.texels = {glm::dvec4(1), glm::dvec4(0), glm::dvec4(0), glm::dvec4(0)};
+    wanted.texels = {glm::dvec4(0), glm::dvec4(0), glm::dvec4(1), glm::dvec4(0)};
+    EXPECT_EQ(display_error(got, wanted).rmse, 0) << "its samples' mean";
+    got.undecided = {true, false, false, true};
+    EXPECT_DOUBLE_EQ(display_error(got, wanted).rmse, std::sqrt(.5)) << "of those that are decided";
+    EXPECT_EQ(display_error(got, wanted, {false, true}).rmse, 0);
+    EXPECT_EQ(display_error(got, wanted, {false, true}).pixels, 1u);
+    EXPECT_DOUBLE_EQ(display_error(got, wanted, {true, false}).rmse, 1) << "of the pixels that change";
+    got.undecided = {true, true, true, true};
+    EXPECT_EQ(display_error(got, wanted).pixels, 0u);
+    EXPECT_EQ(display_error(got, wanted).rmse, 0);
+}
+
+TEST(display_error, is_not_decided_by_one_bright_sample) {
+    // A picture of .3 with one sample as bright as the sun, of which another picture has a tenth, and 2 % too dark elsewhere.
+    ReferenceImage wanted(100, 100, 1, glm::dvec4(.3)), got(100, 100, 1, glm::dvec4(.294));
+    wanted.texels[5050] = glm::dvec4(1e8), got.texels[5050] = glm::dvec4(1e7);
+    EXPECT_NEAR(difference(got, wanted).relative, .9, 1e-6);
+    const DisplayError error = display_error(tone_mapped(got, 1, 4), tone_mapped(wanted, 1, 4));
+    const auto shown = [](double x) { return 1.055 * std::pow(x * (1 + x / 16) / (1 + x), 1 / 2.4) - .055; };
+    EXPECT_NEAR(error.rmse, (shown(.3) - shown(.294)) * std::sqrt(.9999), 1e-12);
+}
+
+TEST(display_error, of_nan_on_one_side_is_infinite) {
+    ReferenceImage got(2, 1, 1, glm::dvec4(.5)), wanted = got;
+    got.texels[0].z = nan_value;
+    EXPECT_EQ(display_error(tone_mapped(got, 1, 4), tone_mapped(wanted, 1, 4)).rmse, endless);
+    got.texels[0].z = endless;
+    EXPECT_EQ(tone_mapped(got, 1, 4).texels[0].z, 1) << "white";
+    got.texels[0].z = -endless;
+    EXPECT_EQ(tone_mapped(got, 1, 4).texels[0].z, 0) << "black";
+}
+
+TEST(display_error, of_alternatives_is_of_encoded_ones) {
+    ReferenceImage truth(1, 1, 1, glm::dvec4(.5));
+    truth.alternatives = {{0, glm::dvec4(.25)}};
+    EXPECT_NEAR(srgb_encoded(truth).texels[0].x, .7353569830524495, 1e-15);
+    EXPECT_NEAR(srgb_encoded(truth).alternatives[0].value.x, .5370987304831942, 1e-15);
 }
 
 TEST(standard_error, is_what_the_rmse_of_an_estimate_is_expected_to_be) {
@@ -124,17 +184,20 @@ TEST(indirect_judge, tells_light_where_there_is_none_from_other_errors) {
 }
 
 TEST(combine_judge, judges_the_picture_first_and_radiance_where_the_truth_has_it) {
-    Pair display, color;
-    display.got.at(0, 0).x = 2;
+    Pair color;
+    const ReferenceImage display(2, 1, 1, glm::dvec4(.5));
+    ReferenceImage darker = display;
+    darker.at(0, 0).x = .25;
     color.got.at(1, 0, 1).z = 6;
     const Frame frame = tiny::frame(2, 1);
-    const ImageSet got{{"display", display.got}, {"color", color.got}};
-    const auto both = combine_judge(got, {{"display", display.truth}, {"color", color.truth}}, {frame, {}});
+    const ImageSet got{{"display", darker}, {"color", color.got}};
+    const auto both = combine_judge(got, {{"display", display}, {"color", color.truth}}, {frame, {}});
     ASSERT_EQ(both.size(), 3u);
-    EXPECT_DOUBLE_EQ(both[0].value, std::sqrt(1. / 12));
-    EXPECT_DOUBLE_EQ(both[1].value, 1);
+    const double off = .7353569830524495 - .5370987304831942;  // as sRGB encodes them
+    EXPECT_NEAR(both[0].value, off / std::sqrt(6.), 1e-15);
+    EXPECT_NEAR(both[1].value, off, 1e-15);
     EXPECT_DOUBLE_EQ(both[2].value, std::sqrt(1. / 12));
-    EXPECT_EQ(combine_judge(got, {{"display", display.truth}}, {frame, {}}).size(), 2u) << "color was drawn over";
+    EXPECT_EQ(combine_judge(got, {{"display", display}}, {frame, {}}).size(), 2u) << "color was drawn over";
 }
 
 TEST(edges_judge, tells_missed_edges_from_needless_ones) {

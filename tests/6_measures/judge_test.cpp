@@ -220,6 +220,26 @@ TEST(Judge, MeasuresWhatTheStageTouchesAlsoAlone) {
     EXPECT_TRUE(judged.against_truth(judged.model).touched.empty()) << "nothing is drawn over";
 }
 
+/// A sample of 2 beside one that the stage draws over dims what the pixel shows of it.
+TEST(Judge, MeasuresWhatADisplayShowsOfThePixelsThatTheStageChanges) {
+    Judged judged;
+    judged.frame.view.exposure = .25f;
+    ImageSet truth = judged.model;
+    truth.at("color").at(1, 0) = glm::dvec4(3);
+    judged.got().at(1, 0) = glm::dvec4(3.3);
+    const auto display = [](const std::vector<Metric>& metrics) {
+        return std::ranges::find(metrics, "display rmse", &Metric::name)->value;
+    };
+    const auto curve = [white = double(1.7f)](double x) { return x * (1 + x / (white * white)) / (1 + x); };
+    const auto pixel = [&](double radiance) { return 1.055 * std::pow((curve(radiance / 4) + curve(.5)) / 2, 1 / 2.4) - .055; };
+    const double off = pixel(3.3) - pixel(3);
+    const Accuracy accuracy = judged.against_truth(truth);
+    EXPECT_NEAR(display(accuracy.touched), off, 1e-12);
+    EXPECT_NEAR(display(accuracy.technique_errors), off / std::sqrt(6.), 1e-12);
+    judged.got().at(1, 0) = glm::dvec4(not_a_number);
+    EXPECT_EQ(display(judged.against_truth(truth).touched), HUGE_VAL);
+}
+
 /// One of twelve samples of 2 is 3, or 1 as far as rounding decides.
 TEST(Judge, TakesTheDistanceToAllThatRoundingAllows) {
     Judged judged;

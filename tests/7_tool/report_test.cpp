@@ -147,18 +147,18 @@ TEST(Answers, SayWhereASpreadIsTooLargeToTellRowsApart) {
     const Answer answer = find_answer(rows, {}, {.error = .02});
     EXPECT_EQ(answer.as_fast, std::vector<std::size_t>{1});
     EXPECT_EQ(answer.unsteady, std::vector<std::size_t>{2});
-    EXPECT_THAT(answer_text(rows, {}, {.error = .02}, {{"a", "b", "c"}, "rmse", "a"}),
+    EXPECT_THAT(answer_text(rows, {}, {.error = .02}, {{"a", "b", "c"}, {"rmse"}, "a"}),
                 HasSubstr("as fast within the spread b (1 more may be: the spread of their times is above 25 %)"));
 }
 
 TEST(Answers, NameTheBaselineAlsoWhereItIsWrong) {
     const std::vector<Standing> rows = {{.error = .2, .time = 1}, {.error = .3, .time = .9}};
-    EXPECT_THAT(answer_text(rows, 0, {.error = .01, .within = 2}, {{"alpha", "b"}, "rmse", "alpha"}),
+    EXPECT_THAT(answer_text(rows, 0, {.error = .01, .within = 2}, {{"alpha", "b"}, {"rmse"}, "alpha"}),
                 testing::EndsWith("the baseline alpha is not an answer; here it has rmse 0.2, 1.00x\n"));
 }
 
 TEST(Answers, AreSentences) {
-    const AnswerNames names{{"alpha", "b", "c", "d", "e", "f"}, "relative rmse", "alpha"};
+    const AnswerNames names{{"alpha", "b", "c", "d", "e", "f"}, {"relative rmse"}, "alpha"};
     EXPECT_EQ(
         answer_text(four_techniques, 0, {.error = .01, .within = 2}, names),
         "answer for relative rmse up to 0.01 within 2x of alpha: cheapest c (relative rmse 0.004, 1.80x), as fast within the "
@@ -490,7 +490,7 @@ TEST(Pool, TakesGeometricMeansOfEqualRows) {
                                          report_on("b", {row("transparency/one", .4, 4), tuned})});
     ASSERT_EQ(pool.rows.size(), 2u);
     EXPECT_EQ(pool.captures, 2u);
-    EXPECT_EQ(pool.error, "rmse");
+    EXPECT_EQ(pool.error.name, "rmse");
     EXPECT_NEAR(pool.rows[0].error, .2, 1e-12);
     EXPECT_NEAR(*pool.rows[0].time, 2, 1e-12);
     EXPECT_TRUE(pool.rows[0].on_front);
@@ -513,8 +513,28 @@ TEST(Pool, PrefersTheRelativeErrorBecauseFramesDifferInBrightness) {
     Measurement both = row("transparency/one", 3, 1);
     both.accuracy.technique_errors.push_back({"relative rmse", "", .25});
     const Pool pool = pooled(std::vector{report_on("a", {both}), report_on("b", {both})});
-    EXPECT_EQ(pool.error, "relative rmse");
+    EXPECT_EQ(pool.error.name, "relative rmse");
     EXPECT_DOUBLE_EQ(pool.rows[0].error, .25);
+}
+
+/// Off by 1 % of white on one frame and by 17 % on another: neither mean hides the second.
+TEST(Pool, TakesTheMeanOfSharesOfWhiteAndNamesTheWorst) {
+    const auto off_by = [](double share) {
+        Measurement measured = row("transparency/one", 3, 1);
+        measured.accuracy.technique_errors.push_back({"relative rmse", "", .5});
+        measured.accuracy.technique_errors.push_back({"display rmse", "of white", share, true});
+        return measured;
+    };
+    const Pool pool = pooled(std::vector{report_on("a", {off_by(.01)}), report_on("b", {off_by(.17)})});
+    EXPECT_DOUBLE_EQ(pool.rows[0].error, .09);
+    EXPECT_DOUBLE_EQ(pool.rows[0].worst_error, .17);
+    EXPECT_EQ(pool.rows[0].worst_capture, "b");
+    Measurement relative = off_by(.17);
+    relative.ranked_by = RankedBy::relative_rmse;
+    EXPECT_EQ(ranking_error(relative).name, "relative rmse");
+    EXPECT_EQ(ranking_metric(relative).value, .5);
+    EXPECT_THAT(as_text(pool),
+                AllOf(HasSubstr("2 captures: means of errors, geometric means of times\n"), HasSubstr(" 17   b ")));
 }
 
 TEST(Pool, RanksOnlyWhatCanDoAllCapturesThatNeedTheStage) {

@@ -386,7 +386,7 @@ TEST(Report, AnswersWhichTechniqueKeepsAnErrorAndATime) {
     EXPECT_EQ(report["answer"]["most_accurate"]["technique"], "transparency/sorted_lists");
     EXPECT_EQ(report["answer"]["cheapest"]["technique"], "transparency/sorted_lists");
     for (const char* rows : {"as_fast", "unsteady"}) EXPECT_TRUE(report["answer"][rows].is_array()) << rows;
-    EXPECT_THAT(strata(verb).out, HasSubstr(" up to 0.01 within 1000x of alpha_blend: cheapest sorted_lists"));
+    EXPECT_THAT(strata(verb).out, HasSubstr(" up to 1 % within 1000x of alpha_blend: cheapest sorted_lists"));
     const Finished defaults = strata("report panes.strata --repeats 1 --defaults --csv");
     EXPECT_EQ(std::size_t(std::ranges::count(defaults.out, '\n')), 1 + techniques_of(Stage::transparency).size());
     for (const char* wrong :
@@ -433,7 +433,7 @@ TEST(Report, OfSeveralCapturesIsEachOnesAndAPooledOne) {
     ASSERT_EQ(reports["reports"].size(), 2u);
     EXPECT_EQ(reports["reports"][1]["capture_name"], "glass.strata");
     EXPECT_EQ(reports["pooled"]["captures"], 2);
-    EXPECT_EQ(reports["pooled"]["error"], "relative rmse");
+    EXPECT_EQ(reports["pooled"]["error"], "display rmse");
     EXPECT_EQ(reports["pooled"]["rows"].size(), reports["reports"][0]["rows"].size());
     EXPECT_THAT(strata(both).out, HasSubstr("of 2 captures"));
     std::istringstream csv(strata(both + " --csv").out);

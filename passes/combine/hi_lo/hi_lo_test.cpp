@@ -6,9 +6,9 @@
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/material.h"
 #include "capture_format/frame/particles.h"
-#include "passes/combine/formulas.h"
 #include "passes/stage_input.h"
 #include "passes/technique.h"
+#include "passes/tone_curve.h"
 #include "tests/support/one_pixel.h"
 
 namespace strata::combine {

@@ -12,6 +12,7 @@
 #include "passes/luminance.h"
 #include "passes/settings.h"
 #include "passes/stage_input.h"
+#include "passes/tone_curve.h"
 
 namespace strata::combine {
 namespace {

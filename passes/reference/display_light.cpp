@@ -1,0 +1,65 @@
+#include "passes/reference/display_light.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "passes/error_sums.h"
+#include "passes/reference/difference.h"
+#include "passes/reference/textures.h"
+#include "passes/tone_curve.h"
+
+namespace strata {
+namespace {
+
+double encoded(double linear) { return linear_to_srgb(std::clamp(linear, 0., 1.)); }
+
+}  // namespace
+
+ReferenceImage tone_mapped(ReferenceImage radiance, double exposure, double white) {
+    for (glm::dvec4& texel : radiance.texels)
+        for (int c = 0; c < 3; ++c) texel[c] = tone_mapped(texel[c] * exposure, white);
+    radiance.alternatives.clear();
+    return radiance;
+}
+
+ReferenceImage srgb_encoded(ReferenceImage display) {
+    const auto encode = [](glm::dvec4& texel) {
+        for (int c = 0; c < 3; ++c) texel[c] = encoded(texel[c]);
+    };
+    std::ranges::for_each(display.texels, encode);
+    std::ranges::for_each(display.alternatives, encode, &Alternative::value);
+    return display;
+}
+
+DisplayError display_error(const ReferenceImage& got, const ReferenceImage& wanted, const std::vector<bool>& changed) {
+    assert(got.width == wanted.width && got.height == wanted.height && got.layers == wanted.layers);
+    DisplayError error;
+    ErrorSums sums;
+    std::size_t over_1 = 0, over_5 = 0;
+    const std::size_t pixels = std::size_t(wanted.width) * wanted.height;
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+        if (!changed.empty() && !changed[pixel]) continue;
+        glm::dvec3 got_sum(0), wanted_sum(0);
+        std::size_t samples = 0;
+        for (std::size_t i = pixel; i < wanted.texels.size(); i += pixels) {
+            if (!decided(got, wanted, i)) continue;
+            got_sum += glm::dvec3(got.texels[i]), wanted_sum += glm::dvec3(wanted.texels[i]);
+            ++samples;
+        }
+        if (samples == 0) continue;
+        double worst = 0;
+        for (int c = 0; c < 3; ++c)
+            worst = std::max(worst,
+                             std::abs(sums.add(encoded(got_sum[c] / double(samples)), encoded(wanted_sum[c] / double(samples)))));
+        over_1 += worst > 1. / 255, over_5 += worst > 5. / 255;
+        error.worst = std::max(error.worst, worst);
+        ++error.pixels;
+    }
+    error.rmse = sums.rmse();
+    error.over_1_255 = double(over_1) / double(std::max<std::size_t>(1, error.pixels));
+    error.over_5_255 = double(over_5) / double(std::max<std::size_t>(1, error.pixels));
+    return error;
+}
+
+}  // namespace strata
