@@ -94,6 +94,9 @@ Result<std::optional<double>> parse_limit(const char* option, std::string text, 
     if (problem != std::errc() || end != text.data() + text.size() || !(value > 0) || !std::isfinite(value))
         return fail(Fault::usage, "options.malformed", "{option} takes a number above 0, like 2{unit}, not '{value}'", option,
                     unit, given);
+    if (!has_unit && unit == '%' && value >= 1)
+        return fail(Fault::usage, "options.share_above_1", "{option} {value} means {percent} %; write % behind a percentage",
+                    option, given, short_number(100 * value));
     return std::optional(has_unit ? value * factor : value);
 }
 
@@ -247,7 +250,12 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
         if (deadline.token().stop_requested()) break;
     }
     const auto done = write(options, written(file_format(options.output, OutputFormat::text), made));
-    if (!done || (made.back().stopped.empty() && made.size() == options.captures.size())) return done;
+    if (!done) return done;
+    if (made.back().stopped.empty() && made.size() == options.captures.size()) {
+        const auto open = std::ranges::find_if(made, is_unanswered);
+        if (open == made.end()) return done;
+        return fail(Fault::over_tolerance, "report.no_answer", "no technique keeps the limits on {capture}", open->capture_name);
+    }
     const std::string missing = made.back().stopped.empty() ? "stopped before the next capture" : made.back().stopped;
     if (signal.token().stop_requested()) return fail(Fault::stopped, "session.stopped", "{progress}", missing);
     to_stderr("strata: {} minutes are over: {}\n", *options.minutes, missing);
@@ -277,10 +285,9 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
                        "techniques to measure with their settings, like 'moments kind=power6,weighted'; default: all");
     techniques->delimiter(',')->allow_extra_args(false);
     app.add_flag("--defaults", options->defaults, "measure each technique only at its default settings")->excludes(techniques);
-    app.add_option(
-        "--error", options->error,
-        "answer which technique, the baseline aside, is cheapest with at most this error, like 1%: of white, or relative "
-        "with --metric relative");
+    app.add_option("--error", options->error,
+                   "answer which technique is fastest with at most this error, like 1%: of white, or relative "
+                   "with --metric relative");
     app.add_option("--error-at", options->error_at,
                    "measure errors of the stage's output, or of the picture that the later stages make of it")
         ->check(one_of({"stage", "picture"}));
@@ -289,7 +296,7 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
                    "(relative), which a single bright sample can decide")
         ->check(one_of({"display", "relative"}));
     app.add_option("--within", options->within,
-                   "answer which technique, the baseline aside, is most accurate within this multiple of its time, like 2x");
+                   "answer which technique is most accurate within this multiple of the baseline's time, like 2x");
     app.add_option("--sweep", options->sweeps,
                    "measure each value of a parameter, as key=a,b,c, instead of each technique's own settings; repeatable")
         ->allow_extra_args(false);

@@ -1,6 +1,7 @@
 #include "replay/report/answer.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,8 @@ namespace {
 constexpr double exact_below = 1e-4;
 // A time with a larger spread, as a share of it, is told apart from hardly any other: a busy machine, or too few repeats.
 constexpr double largest_spread = .25;
+// Rows as fast as the recommended one.
+constexpr std::size_t most_named = 3;
 
 bool keeps_error(const Standing& row, const Question& asked) { return row.error && (!asked.error || *row.error <= *asked.error); }
 
@@ -20,19 +23,30 @@ bool keeps_time(const Standing& row, const Question& asked) {
     return row.error && (!asked.within || row.time + row.spread <= *asked.within);
 }
 
+bool keeps_all(const Standing& row, const Question& asked) { return keeps_error(row, asked) && keeps_time(row, asked); }
+
+/// By which factor a row exceeds the limit that it exceeds most.
+double excess(const Standing& row, const Question& asked) {
+    if (!row.error) return HUGE_VAL;
+    const double error = asked.error ? *row.error / *asked.error : 0;
+    return std::max(error, asked.within ? (row.time + row.spread) / *asked.within : 0);
+}
+
 /// The first row with the least value of those that are candidates.
 template <typename Keeps, typename Value>
-std::optional<std::size_t> least(std::span<const Standing> rows, std::optional<std::size_t> baseline, const Keeps& keeps,
-                                 const Value& value) {
+std::optional<std::size_t> least(std::span<const Standing> rows, const Keeps& keeps, const Value& value) {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < rows.size(); ++i)
-        if (i != baseline && keeps(rows[i]) && (!best || value(rows[i]) < value(rows[*best]))) best = i;
+        if (keeps(rows[i]) && (!best || value(rows[i]) < value(rows[*best]))) best = i;
     return best;
 }
 
+bool are_as_fast(const Standing& a, const Standing& b) { return std::abs(a.time - b.time) <= a.spread + b.spread; }
+
 std::string metrics(const Standing& row, const AnswerNames& names) {
     const std::string error = fmt::format("{} {}", names.error.name, names.error.text(*row.error));
-    return names.unit.empty() ? error : fmt::format("{}, {:.2f}x", error, row.time);
+    const std::string time = names.unit.empty() ? "" : fmt::format(", {:.2f}x", row.time);
+    return fmt::format("{}{}, {} bytes per pixel", error, time, row.bytes_per_pixel);
 }
 
 std::string limits(const Question& asked, const AnswerNames& names) {
@@ -42,51 +56,102 @@ std::string limits(const Question& asked, const AnswerNames& names) {
     return text;
 }
 
+/// "the limit of error", "both limits": those that the row does not keep.
+std::string missed(const Standing& row, const Question& asked) {
+    const bool error = !keeps_error(row, asked), time = !keeps_time(row, asked);
+    return error && time ? "both limits" : error ? "the limit of error" : "the limit of time";
+}
+
+/// Lines of an answer, each a sentence about a row.
+class AnswerLines {
+public:
+    AnswerLines(std::span<const Standing> rows, std::optional<std::size_t> baseline, const Question& asked,
+                const AnswerNames& names)
+        : rows_(rows), baseline_(baseline), asked_(asked), names_(names), answer_(find_answer(rows, baseline, asked)) {}
+
+    std::string text() const {
+        std::string text = fmt::format("answer for {}: ", limits(asked_, names_));
+        text += answer_.recommended ? recommendation() : nearest();
+        const auto shown = answer_.recommended ? answer_.recommended : answer_.nearest;
+        if (baseline_ && baseline_ != shown && rows_[*baseline_].error)
+            text += fmt::format(
+                "the baseline {} {}{}\n", row(*baseline_),
+                keeps_all(rows_[*baseline_], asked_) ? "keeps it, too" : "misses " + missed(rows_[*baseline_], asked_), note());
+        if (shown && *shown < names_.commands.size()) text += fmt::format("to replay it: {}\n", names_.commands[*shown]);
+        return text;
+    }
+
+private:
+    std::string row(std::size_t i) const { return fmt::format("{} ({})", names_.rows[i], metrics(rows_[i], names_)); }
+    std::string note() const { return names_.baseline_note.empty() ? "" : "; " + names_.baseline_note; }
+
+    std::string recommendation() const {
+        const std::size_t chosen = *answer_.recommended;
+        std::string text =
+            chosen == baseline_
+                ? fmt::format("keep the baseline {}{}{}\n", row(chosen),
+                              *rows_[chosen].error < exact_below ? ": exact, nothing that shows is out of order" : "", note())
+                : fmt::format("use {}\n", row(chosen));
+        for (std::size_t i = 0; i < std::min(answer_.as_fast.size(), most_named); ++i)
+            text += (i == 0 ? "as fast within the spread: " : ", ") + row(answer_.as_fast[i]);
+        if (answer_.as_fast.size() > most_named) text += fmt::format(" and {} more", answer_.as_fast.size() - most_named);
+        if (!answer_.unsteady.empty())
+            text += fmt::format("{}{} more may be: the spread of their times is above {:g} %",
+                                answer_.as_fast.empty() ? "" : "; ", answer_.unsteady.size(), 100 * largest_spread);
+        if (!answer_.as_fast.empty() || !answer_.unsteady.empty()) text += "\n";
+        if (answer_.most_accurate != chosen) text += fmt::format("most accurate: {}\n", row(*answer_.most_accurate));
+        if (answer_.cheaper) {
+            const Standing& cheaper = rows_[*answer_.cheaper];
+            text += fmt::format("cheaper: {}{}\n", row(*answer_.cheaper),
+                                keeps_all(cheaper, asked_) ? "" : " misses " + missed(cheaper, asked_));
+        }
+        return text;
+    }
+
+    std::string nearest() const {
+        const std::string none = asked_.error && asked_.within ? "no technique keeps both" : "no technique keeps it";
+        if (!answer_.nearest) return none + "\n";
+        const std::size_t near = *answer_.nearest;
+        return fmt::format("{}; the nearest, {}, misses {}\n", none, row(near), missed(rows_[near], asked_));
+    }
+
+    std::span<const Standing> rows_;
+    std::optional<std::size_t> baseline_;
+    const Question& asked_;
+    const AnswerNames& names_;
+    Answer answer_;
+};
+
 }  // namespace
 
 Answer find_answer(std::span<const Standing> rows, std::optional<std::size_t> baseline, const Question& asked) {
     const auto time = [](const Standing& row) { return row.time; };
     const auto error = [](const Standing& row) { return *row.error; };
-    const auto both = [&](const Standing& row) { return keeps_error(row, asked) && keeps_time(row, asked); };
-    Answer answer;
-    answer.keeps_all = least(rows, baseline, both, time).has_value();
-    const auto by_error = [&](const Standing& row) { return answer.keeps_all ? both(row) : keeps_error(row, asked); };
-    const auto by_time = [&](const Standing& row) { return answer.keeps_all ? both(row) : keeps_time(row, asked); };
-    if (asked.error) answer.cheapest = least(rows, baseline, by_error, time);
-    if (asked.within) answer.most_accurate = least(rows, baseline, by_time, error);
-    for (std::size_t i = 0; answer.cheapest && i < rows.size(); ++i) {
-        const Standing& best = rows[*answer.cheapest];
-        const bool is_apart = rows[i].time - best.time > rows[i].spread + best.spread;
-        if (i == *answer.cheapest || i == baseline || !by_error(rows[i]) || is_apart) continue;
+    const auto keeps = [&](const Standing& row) { return keeps_all(row, asked); };
+    Answer answer{.most_accurate = least(rows, keeps, error)};
+    if (!answer.most_accurate) {
+        answer.nearest = least(
+            rows, [](const Standing& row) { return row.error.has_value(); },
+            [&](const Standing& row) { return excess(row, asked); });
+        return answer;
+    }
+    const bool suffices = baseline && asked.error && keeps(rows[*baseline]);
+    answer.recommended = suffices ? baseline : asked.error ? least(rows, keeps, time) : answer.most_accurate;
+    const Standing& chosen = rows[*answer.recommended];
+    answer.cheaper = least(
+        rows, [&](const Standing& row) { return row.error && row.time < chosen.time && !are_as_fast(row, chosen); }, error);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (i == *answer.recommended || !keeps(rows[i]) || !are_as_fast(rows[i], chosen)) continue;
         (rows[i].spread > largest_spread * rows[i].time ? answer.unsteady : answer.as_fast).push_back(i);
     }
+    std::ranges::stable_sort(answer.as_fast, {}, [&](std::size_t i) { return error(rows[i]); });
     return answer;
 }
 
 std::string answer_text(std::span<const Standing> rows, std::optional<std::size_t> baseline, const Question& asked,
                         const AnswerNames& names) {
     if (asked.within && names.unit.empty()) return "answer: none; the baseline's time could not be measured\n";
-    const Answer answer = find_answer(rows, baseline, asked);
-    const auto row = [&](std::size_t i) { return fmt::format("{} ({})", names.rows[i], metrics(rows[i], names)); };
-    std::string text = fmt::format("answer for {}: ", limits(asked, names));
-    if (asked.error && asked.within && !answer.keeps_all) text += "no technique; ";
-    if (asked.error)
-        text += answer.cheapest ? fmt::format("cheapest {}", row(*answer.cheapest)) : "no technique has so small an error";
-    for (std::size_t i = 0; i < answer.as_fast.size(); ++i)
-        text += fmt::format("{}{}", i == 0 ? ", as fast within the spread " : ", ", names.rows[answer.as_fast[i]]);
-    if (!answer.unsteady.empty())
-        text += fmt::format(" ({} more may be: the spread of their times is above {:g} %)", answer.unsteady.size(),
-                            100 * largest_spread);
-    if (asked.error && asked.within) text += "; ";
-    if (asked.within)
-        text += answer.most_accurate ? fmt::format("most accurate {}", row(*answer.most_accurate)) : "no technique is so fast";
-    text += "\n";
-    if (baseline && rows[*baseline].error)
-        text += fmt::format("the baseline {} is not an answer; here it has {}{}{}{}\n", names.rows[*baseline],
-                            metrics(rows[*baseline], names),
-                            *rows[*baseline].error < exact_below ? ": exact, nothing that shows is out of order" : "",
-                            names.baseline_note.empty() ? "" : "; ", names.baseline_note);
-    return text;
+    return AnswerLines(rows, baseline, asked, names).text();
 }
 
 }  // namespace strata

@@ -17,13 +17,15 @@ struct Question {
     bool is_asked() const { return error || within; }
 };
 
-/// Rows by index: those that keep all that is asked; where no row does, those that keep each limit alone. The baseline is not an
-/// answer.
+/// Rows by index. The baseline takes part: who has it and is served by it needs no other technique.
 struct Answer {
-    bool keeps_all = false;
-    std::optional<std::size_t> cheapest;       ///< the fastest that keeps the error
-    std::optional<std::size_t> most_accurate;  ///< that keeps the time
-    std::vector<std::size_t> as_fast;          ///< that keep the error and are as fast as the cheapest within their spreads
+    /// Keeps all that is asked: the baseline if it keeps an error that is asked, else the fastest such row; where only a time is
+    /// asked, the most accurate.
+    std::optional<std::size_t> recommended;
+    std::optional<std::size_t> most_accurate;  ///< of the rows that keep all
+    std::optional<std::size_t> cheaper;        ///< the most accurate of those that are faster than the recommended one
+    std::optional<std::size_t> nearest;        ///< where no row keeps all: exceeds the limits by the least factor
+    std::vector<std::size_t> as_fast;          ///< keep all and are as fast as the recommended row within their spreads, by error
     std::vector<std::size_t> unsteady;  ///< of those, such as have a spread above a quarter of their time: they say nothing
 };
 Answer find_answer(std::span<const Standing>, std::optional<std::size_t> baseline, const Question&);
@@ -32,8 +34,9 @@ Answer find_answer(std::span<const Standing>, std::optional<std::size_t> baselin
 struct AnswerNames {
     std::vector<std::string> rows;
     RankingError error;
-    std::string unit;                ///< "alpha_blend"; empty: no time could be measured in units of it
-    std::string baseline_note = {};  ///< what its time contains, or nothing
+    std::string unit;                        ///< "alpha_blend"; empty: no time could be measured in units of it
+    std::string baseline_note = {};          ///< what its time contains, or nothing
+    std::vector<std::string> commands = {};  ///< by row: what replays it; or none
 };
 std::string answer_text(std::span<const Standing>, std::optional<std::size_t> baseline, const Question&, const AnswerNames&);
 

@@ -60,11 +60,13 @@ ordered_json json_of_answer(const Report& report) {
         return i ? ordered_json{{"technique", report.rows[*i].technique}, {"settings", report.rows[*i].settings}}
                  : ordered_json();
     };
-    ordered_json json{{"error", nullptr}, {"within", nullptr}, {"keeps_all", answer.keeps_all}};
+    ordered_json json{{"error", nullptr}, {"within", nullptr}};
     if (report.question.error) json["error"] = *report.question.error;
     if (report.question.within) json["within"] = *report.question.within;
-    json["cheapest"] = row(answer.cheapest);
+    json["recommended"] = row(answer.recommended);
     json["most_accurate"] = row(answer.most_accurate);
+    json["cheaper"] = row(answer.cheaper);
+    json["nearest"] = row(answer.nearest);
     for (const auto& [name, rows] : {std::pair("as_fast", &answer.as_fast), std::pair("unsteady", &answer.unsteady)}) {
         json[name] = ordered_json::array();
         for (const std::size_t i : *rows) json[name].push_back(row(i));

@@ -44,12 +44,11 @@ std::vector<bool> uncertain_rows(std::span<const Standing> rows, const Question&
     return uncertain;
 }
 
-std::vector<bool> rows_far_behind(std::span<const Standing> rows, std::optional<std::size_t> baseline) {
+std::vector<bool> rows_far_behind(std::span<const Standing> rows) {
     std::vector<bool> far(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
         for (std::size_t j = 0; j < rows.size() && !far[i]; ++j)
-            far[i] = j != baseline && rows[i].error && rows[j].error && *rows[j].error <= *rows[i].error &&
-                     2 * rows[j].time < rows[i].time;
+            far[i] = rows[i].error && rows[j].error && *rows[j].error <= *rows[i].error && 2 * rows[j].time < rows[i].time;
     return far;
 }
 

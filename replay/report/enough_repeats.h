@@ -16,8 +16,8 @@ namespace strata {
 /// one is never uncertain because of rows. A row without an error is not ranked.
 std::vector<bool> uncertain_rows(std::span<const Standing>, const Question&);
 
-/// For each row whether another one, the baseline aside (it is no answer), has no larger error in less than half the time: a
-/// single run tells times apart that differ so much.
-std::vector<bool> rows_far_behind(std::span<const Standing>, std::optional<std::size_t> baseline);
+/// For each row whether another one has no larger error in less than half the time: a single run tells times apart that differ
+/// so much.
+std::vector<bool> rows_far_behind(std::span<const Standing>);
 
 }  // namespace strata

@@ -14,6 +14,7 @@
 #include "replay/report/flicker.h"
 #include "replay/report/row_maker.h"
 #include "replay/report/variants.h"
+#include "replay/session/choice_text.h"
 
 namespace strata {
 namespace {
@@ -86,6 +87,14 @@ struct Shares {
     }
 };
 
+std::vector<std::string> options_of(const Request& base) {
+    std::vector<std::string> options;
+    for (const std::string& use : use_texts(base.choices)) options.insert(options.end(), {"--use", use});
+    for (const std::string& set : set_texts(base.choices)) options.insert(options.end(), {"--set", set});
+    if (base.variant.samples) options.insert(options.end(), {"--samples", fmt::format("{}", base.variant.samples)});
+    return options;
+}
+
 /// Whose time may be the unit first, at its defaults before its other settings: each group has it beside its rows.
 void put_unit_first(std::vector<Variant>& rows) {
     std::ranges::stable_sort(
@@ -127,6 +136,11 @@ std::optional<std::size_t> baseline_of(const Report& report) {
     return found == report.rows.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - report.rows.begin()));
 }
 
+bool is_unanswered(const Report& report) {
+    if (!report.question.is_asked() || !report.skipped.empty() || !report.stopped.empty()) return false;
+    return !find_answer(standings(report.rows), baseline_of(report), report.question).recommended;
+}
+
 void mark_fronts(std::vector<Measurement>& rows) {
     const std::vector<Standing> all = standings(rows);
     const std::vector<bool> fast = pareto_front(all, &Standing::time), small = pareto_front(all, &Standing::bytes_per_pixel);
@@ -161,6 +175,7 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
     Report report{.stage = wanted.stage,
                   .capture_id = session.capture_id(),
                   .error_at = wanted.error_at,
+                  .options = options_of(wanted.base),
                   .frame = wanted.base.variant.frame,
                   .repeats = wanted.repeats,
                   .least_repeats = wanted.least_repeats,

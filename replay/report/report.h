@@ -98,8 +98,9 @@ struct Report {
     std::string date = {};            ///< when it was made, utc_date(); the caller's
     std::vector<ReportTruth> truths;  ///< of its rows; the first is that of the first row
     ErrorAt error_at = ErrorAt::stage;
-    std::size_t frame = 0, repeats = 0;  ///< of the row with the most; each has its own in its spreads
-    std::size_t least_repeats = 0;       ///< of the row with the fewest
+    std::vector<std::string> options = {};  ///< of `strata replay`, for the choices of the other stages and the frame
+    std::size_t frame = 0, repeats = 0;     ///< of the row with the most; each has its own in its spreads
+    std::size_t least_repeats = 0;          ///< of the row with the fewest
     std::uint32_t width = 0, height = 0, samples = 1;
     DeviceInfo device;
     std::string time_unit;        ///< the technique whose time is 1; empty: none could be measured
@@ -128,6 +129,9 @@ RankingError ranking_error(const Measurement&);
 std::vector<Standing> standings(std::span<const Measurement>);
 /// The row whose time is 1, if it was measured.
 std::optional<std::size_t> baseline_of(const Report&);
+
+/// Whether limits were asked for that no row keeps.
+bool is_unanswered(const Report&);
 
 /// The figures of the stage's judge, and FLIP's mean behind them where there is one.
 std::vector<Metric> errors_of(const Measurement&);

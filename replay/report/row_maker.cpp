@@ -95,7 +95,7 @@ Result<void> RowMaker::make_group(std::size_t end, const Progress& tell) {
     if (const auto done = times_.time(timed, first, told); !done) return done;
     if (times_.has_unit()) report_->time_unit = all_[*times_.unit()].technique->name;
     for (const std::size_t i : timed) times_.add_to(report_->rows[i], i, *report_);
-    const std::vector<bool> are_far_behind = rows_far_behind(standings(report_->rows), times_.unit());
+    const std::vector<bool> are_far_behind = rows_far_behind(standings(report_->rows));
     std::erase_if(timed, [&](std::size_t i) { return are_far_behind[i]; });
     const auto done = times_.time(timed, least - first, told);
     if (!done && done.error().fault != Fault::stopped) return done;

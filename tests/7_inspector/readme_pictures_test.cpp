@@ -96,7 +96,7 @@ TEST_F(ReadmePictures, AComparisonIsWhatItsScriptMakes) {
 }
 
 Rectangle rectangle_of(const nlohmann::json& widget, const Extent& extent) {
-    const auto edge = [&](const char* corner, int axis, std::uint32_t most) {
+    const auto edge = [&](const char* corner, std::size_t axis, std::uint32_t most) {
         return static_cast<std::uint32_t>(std::clamp(widget[corner][axis].get<double>(), 0.0, static_cast<double>(most)));
     };
     return {edge("from", 0, extent.width), edge("from", 1, extent.height), edge("to", 0, extent.width),

@@ -73,7 +73,7 @@ TEST(ParetoFront, WhatHasAnotherTruthIsNotRanked) {
     EXPECT_TRUE(rows[1].on_front);
     EXPECT_TRUE(rows[1].on_memory_front);
     EXPECT_EQ(best_within(standings(rows), {&Standing::time, 4}), 1u);
-    EXPECT_EQ(find_answer(standings(rows), {}, {.error = .2}).cheapest, 1u);
+    EXPECT_EQ(find_answer(standings(rows), {}, {.error = .2}).recommended, 1u);
 }
 
 TEST(ParetoFront, WhatIsNotSupportedIsNeverOnIt) {
@@ -119,25 +119,37 @@ const std::vector<Standing> four_techniques = {{.error = 0, .time = 1},
                                                {.error = .02, .time = 1.1, .spread = .02},
                                                {.time = 0}};  // not supported
 
-TEST(Answers, NameTheCheapestBelowTheErrorAndTheMostAccurateWithinTheTime) {
-    const Answer answer = find_answer(four_techniques, 0, {.error = .01, .within = 2});
-    EXPECT_TRUE(answer.keeps_all);
-    EXPECT_EQ(answer.cheapest, 2u);
-    EXPECT_EQ(answer.most_accurate, 2u);
-    EXPECT_EQ(answer.as_fast, std::vector<std::size_t>{3});
+TEST(Answers, AreTheFastestRowThatKeepsAllLimits) {
+    const Answer answer = find_answer(four_techniques, {}, {.error = .01, .within = 2});
+    EXPECT_EQ(answer.recommended, 0u);
+    EXPECT_EQ(answer.most_accurate, 0u);
+    EXPECT_EQ(answer.cheaper, std::nullopt);
+    EXPECT_EQ(answer.nearest, std::nullopt);
+    const std::vector<Standing> inexact(four_techniques.begin() + 1, four_techniques.end());
+    EXPECT_EQ(find_answer(inexact, {}, {.error = .01, .within = 3}).recommended, 1u);
+    EXPECT_EQ(find_answer(inexact, {}, {.error = .01, .within = 3}).most_accurate, 0u);
+    EXPECT_EQ(find_answer(inexact, {}, {.error = .01, .within = 3}).as_fast, std::vector<std::size_t>{2});
+    EXPECT_EQ(find_answer(inexact, {}, {.error = .01, .within = 3}).cheaper, 3u);
+    EXPECT_EQ(find_answer(inexact, {}, {.within = 2}).recommended, 1u) << "the most accurate where no error is asked";
 }
 
-TEST(Answers, OfNoTechniqueThatKeepsBothAreThoseThatKeepEither) {
-    const Answer answer = find_answer(four_techniques, 0, {.error = .002, .within = 1.5});
-    EXPECT_FALSE(answer.keeps_all);
-    EXPECT_EQ(answer.cheapest, 1u);
-    EXPECT_EQ(answer.most_accurate, 4u);
-    EXPECT_EQ(find_answer(four_techniques, 0, {.error = 1e-6, .within = .5}).cheapest, std::nullopt);
+TEST(Answers, AreTheBaselineWhereItKeepsTheError) {
+    EXPECT_EQ(find_answer(four_techniques, 4, {.error = .03, .within = 2}).recommended, 4u);
+    EXPECT_EQ(find_answer(four_techniques, 1, {.error = .002}).recommended, 1u) << "also where another is faster";
+    EXPECT_EQ(find_answer(four_techniques, 4, {.error = .01}).recommended, 0u);
+    EXPECT_EQ(find_answer(four_techniques, 4, {.within = 2}).recommended, 0u) << "it always keeps a time in units of its own";
 }
 
-TEST(Answers, CountTheBaselineOnlyWhereThereIsNone) {
-    EXPECT_EQ(find_answer(four_techniques, 0, {.error = .01}).cheapest, 2u);
-    EXPECT_EQ(find_answer(four_techniques, std::nullopt, {.error = .01}).cheapest, 0u);
+TEST(Answers, OfNoRowThatKeepsAllNameTheNearest) {
+    const std::vector<Standing> rows = {{.error = .2, .time = 1}, {.error = .011, .time = 2.5}, {.error = .001, .time = 9}};
+    const Answer answer = find_answer(rows, 0, {.error = .01, .within = 2});
+    EXPECT_EQ(answer.recommended, std::nullopt);
+    EXPECT_EQ(answer.nearest, 1u) << "1.25 times the time; the others 20 times the error and 4.5 times the time";
+    EXPECT_THAT(
+        answer_text(rows, 0, {.error = .01, .within = 2}, {{"alpha", "b", "c"}, {"rmse"}, "alpha"}),
+        AllOf(HasSubstr("no technique keeps both; the nearest, b (rmse 0.011, 2.50x, 0 bytes per pixel), misses both limits\n"),
+              HasSubstr("the baseline alpha (rmse 0.2, 1.00x, 0 bytes per pixel) misses the limit of error\n")));
+    EXPECT_EQ(find_answer(std::vector<Standing>{{.time = 1}}, {}, {.error = 1}).nearest, std::nullopt) << "not supported";
 }
 
 TEST(Answers, SayWhereASpreadIsTooLargeToTellRowsApart) {
@@ -147,30 +159,32 @@ TEST(Answers, SayWhereASpreadIsTooLargeToTellRowsApart) {
     const Answer answer = find_answer(rows, {}, {.error = .02});
     EXPECT_EQ(answer.as_fast, std::vector<std::size_t>{1});
     EXPECT_EQ(answer.unsteady, std::vector<std::size_t>{2});
-    EXPECT_THAT(answer_text(rows, {}, {.error = .02}, {{"a", "b", "c"}, {"rmse"}, "a"}),
-                HasSubstr("as fast within the spread b (1 more may be: the spread of their times is above 25 %)"));
-}
-
-TEST(Answers, NameTheBaselineAlsoWhereItIsWrong) {
-    const std::vector<Standing> rows = {{.error = .2, .time = 1}, {.error = .3, .time = .9}};
-    EXPECT_THAT(answer_text(rows, 0, {.error = .01, .within = 2}, {{"alpha", "b"}, {"rmse"}, "alpha"}),
-                testing::EndsWith("the baseline alpha is not an answer; here it has rmse 0.2, 1.00x\n"));
+    EXPECT_THAT(
+        answer_text(rows, {}, {.error = .02}, {{"a", "b", "c"}, {"rmse"}, "a"}),
+        HasSubstr("as fast within the spread: b (rmse 0.01, 1.10x, 0 bytes per pixel); 1 more may be: the spread of their "
+                  "times is above 25 %\n"));
 }
 
 TEST(Answers, AreSentences) {
-    const AnswerNames names{{"alpha", "b", "c", "d", "e", "f"}, {"relative rmse"}, "alpha"};
+    AnswerNames names{{"b", "c", "d", "alpha", "f"}, {"display rmse", true}, "alpha"};
+    names.commands = {"replay b", "replay c", "replay d", "replay alpha", "replay f"};
+    names.baseline_note = "its time contains 2 ms";
+    std::vector<Standing> rows(four_techniques.begin() + 1, four_techniques.end());
     EXPECT_EQ(
-        answer_text(four_techniques, 0, {.error = .01, .within = 2}, names),
-        "answer for relative rmse up to 0.01 within 2x of alpha: cheapest c (relative rmse 0.004, 1.80x), as fast within the "
-        "spread d; most accurate c (relative rmse 0.004, 1.80x)\n"
-        "the baseline alpha is not an answer; here it has relative rmse 0, 1.00x: exact, nothing that shows is out of order\n");
-    const AnswerNames noted{names.rows, names.error, names.unit, "its time contains 2 ms"};
-    EXPECT_THAT(answer_text(four_techniques, 0, {.error = .01}, noted), HasSubstr("out of order; its time contains 2 ms\n"));
-    EXPECT_EQ(answer_text(four_techniques, 0, {.error = 1e-6, .within = 1.5}, names),
-              "answer for relative rmse up to 1.0e-06 within 1.5x of alpha: no technique; no technique has so small an error; "
-              "most accurate "
-              "e (relative rmse 0.02, 1.10x)\nthe baseline alpha is not an answer; here it has relative rmse 0, 1.00x: "
-              "exact, nothing that shows is out of order\n");
+        answer_text(rows, 3, {.error = .01, .within = 3}, names),
+        "answer for display rmse up to 1 % within 3x of alpha: use c (display rmse 0.4 %, 1.80x, 0 bytes per pixel)\n"
+        "as fast within the spread: d (display rmse 0.5 %, 1.90x, 0 bytes per pixel)\n"
+        "most accurate: b (display rmse 0.1 %, 2.70x, 0 bytes per pixel)\n"
+        "cheaper: alpha (display rmse 2 %, 1.10x, 0 bytes per pixel) misses the limit of error\n"
+        "the baseline alpha (display rmse 2 %, 1.10x, 0 bytes per pixel) misses the limit of error; its time contains 2 ms\n"
+        "to replay it: replay c\n");
+    EXPECT_THAT(answer_text(rows, 3, {.within = 2}, names),
+                AllOf(HasSubstr("within 2x of alpha: use c ("), HasSubstr("2 %, 1.10x, 0 bytes per pixel) keeps it, too;")));
+    rows[3].error = 1e-6;
+    EXPECT_EQ(
+        answer_text(rows, 3, {.error = .01}, names),
+        "answer for display rmse up to 1 %: keep the baseline alpha (display rmse 1.0e-04 %, 1.10x, 0 bytes per pixel): exact, "
+        "nothing that shows is out of order; its time contains 2 ms\nto replay it: replay alpha\n");
 }
 
 /// Zeros would be times.

@@ -268,7 +268,7 @@ TEST(Replay, SaysWhatViewsShowInNumbers) {
         for (const DebugView& view : technique->views) {
             const json& shown = frame["views"][fmt::format("{}:{}", technique->name, view.name)];
             EXPECT_EQ(shown["unit"], std::string(view.unit)) << view.name;
-            for (int c = 0; c < 3; ++c) {
+            for (std::size_t c = 0; c < 3; ++c) {
                 EXPECT_LE(shown["least"][c], shown["mean"][c].get<double>() + 1e-9) << view.name;
                 EXPECT_LE(shown["mean"][c], shown["most"][c].get<double>() + 1e-9) << view.name;
             }
@@ -383,16 +383,19 @@ TEST(Report, AnswersWhichTechniqueKeepsAnErrorAndATime) {
     const json report = json::parse(made.out);
     EXPECT_EQ(report["rows"].size(), 3u) << "the time unit is measured, too";
     EXPECT_EQ(report["answer"]["error"], .01);
-    EXPECT_EQ(report["answer"]["most_accurate"]["technique"], "transparency/sorted_lists");
-    EXPECT_EQ(report["answer"]["cheapest"]["technique"], "transparency/sorted_lists");
+    EXPECT_EQ(report["answer"]["recommended"]["technique"], "transparency/alpha_blend") << "exact here";
+    EXPECT_EQ(report["answer"]["nearest"], nullptr);
     for (const char* rows : {"as_fast", "unsteady"}) EXPECT_TRUE(report["answer"][rows].is_array()) << rows;
-    EXPECT_THAT(strata(verb).out, HasSubstr(" up to 1 % within 1000x of alpha_blend: cheapest sorted_lists"));
+    EXPECT_THAT(strata(verb).out, HasSubstr(" up to 1 % within 1000x of alpha_blend: keep the baseline alpha_blend"));
     const Finished defaults = strata("report panes.strata --repeats 1 --defaults --csv");
     EXPECT_EQ(std::size_t(std::ranges::count(defaults.out, '\n')), 1 + techniques_of(Stage::transparency).size());
-    for (const char* wrong :
-         {"--techniques nothing", "--techniques 'weighted weight=w0'", "--techniques lighting/tiled", "--error nan", "--error 0",
-          "--techniques 'weighted weight=w7 weight=w8'", "--within -2x", "--within 2y", "--defaults --techniques weighted"})
+    for (const char* wrong : {"--techniques nothing", "--techniques 'weighted weight=w0'", "--techniques lighting/tiled",
+                              "--error nan", "--error 0", "--error 2", "--techniques 'weighted weight=w7 weight=w8'",
+                              "--within -2x", "--within 2y", "--defaults --techniques weighted"})
         EXPECT_EQ(strata(std::string("report panes.strata ") + wrong).code, 2) << wrong;
+    const Finished open = strata("-v report panes.strata --repeats 1 --techniques weighted --error 1e-9% --within 1000x");
+    EXPECT_THAT(open, Refuses(1, "report.no_answer", "capture=panes.strata"));
+    EXPECT_THAT(open.out, HasSubstr("no technique keeps both; the nearest, "));
 }
 
 TEST(Report, FlickerIsNothingForWhatIsExactWhereverTheEyeGoes) {
