@@ -22,8 +22,10 @@ std::uint64_t DrawnNumbers::next() {
 
 std::vector<glm::dvec2> stratified(std::uint32_t side, DrawnNumbers& random) {
     std::vector<glm::dvec2> points;
-    for (std::uint32_t i = 0; i < side * side; ++i)
-        points.push_back(glm::dvec2(i % side + random.unit(), i / side + random.unit()) / double(side));
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+        const double up = random.unit(), across = random.unit();  // arguments of a call have no order
+        points.push_back(glm::dvec2(i % side + across, i / side + up) / double(side));
+    }
     return points;
 }
 

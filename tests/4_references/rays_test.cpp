@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "passes/reference/directions.h"
 #include "passes/reference/rays.h"
 #include "passes/reference/shade.h"
 #include "passes/reference/triangles.h"
@@ -152,6 +153,18 @@ TEST(Rays, AgreeWithTheRasterizer) {
         EXPECT_NEAR(0.125 / hit->distance, p.depth, 1e-9);
     }
     EXPECT_GT(compared, 1000);
+}
+
+/// SplitMix64 in another language: of each point the second coordinate is drawn first.
+TEST(directions, of_a_key_are_the_same_whatever_compiles_them) {
+    DrawnNumbers random(7, 3);
+    const std::vector<glm::dvec2> points = stratified(2, random);
+    const glm::dvec2 wanted[] = {{.009278509072661978, .11895177508782928},
+                                 {.5212756449939613, .3421989227982008},
+                                 {.4243109307750641, .5606470553210525},
+                                 {.9338147775314007, .8658950211570345}};
+    ASSERT_EQ(points.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(points[i], wanted[i]) << i;
 }
 
 }  // namespace
