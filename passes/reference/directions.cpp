@@ -22,10 +22,11 @@ std::uint64_t DrawnNumbers::next() {
 
 std::vector<glm::dvec2> stratified(std::uint32_t side, DrawnNumbers& random) {
     std::vector<glm::dvec2> points;
-    for (std::uint32_t i = 0; i < side * side; ++i) {
-        const double up = random.unit(), across = random.unit();  // arguments of a call have no order
-        points.push_back(glm::dvec2(i % side + across, i / side + up) / double(side));
-    }
+    for (std::uint32_t y = 0; y < side; ++y)
+        for (std::uint32_t x = 0; x < side; ++x) {
+            const double up = random.unit(), across = random.unit();  // arguments of a call have no order
+            points.push_back(glm::dvec2(x + across, y + up) / double(side));
+        }
     return points;
 }
 
