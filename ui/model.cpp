@@ -163,12 +163,7 @@ Request Model::request() const {
 }
 
 std::string Model::command_line() const {
-    std::string line = fmt::format("strata replay {} --frames {}", as_shell_word(capture.string()), edits_.variant.frame);
-    for (const std::string& use : use_texts(edits_.choices)) line += fmt::format(" --use {}", as_shell_word(use));
-    for (const std::string& set : set_texts(edits_.choices)) line += fmt::format(" --set {}", as_shell_word(set));
-    for (const Feature feature : edits_.variant.force) line += fmt::format(" --force {}", name(feature));
-    if (edits_.variant.samples != 0) line += fmt::format(" --samples {}", edits_.variant.samples);
-    if (const std::string eye = text(edits_.variant.eye); !eye.empty()) line += fmt::format(" --eye {}", as_shell_word(eye));
+    std::string line = replay_command(capture.string(), edits_.variant, edits_.choices);
     if (uses_shaders) line += fmt::format(" --shaders {}", as_shell_word(shaders.string()));
     if (!device.gpu.empty()) line += fmt::format(" --gpu {}", as_shell_word(device.gpu));
     if (!image.step && !image.made && image.name != "display")

@@ -23,8 +23,8 @@ struct DisplayError {
     std::size_t pixels = 0;  ///< compared
 };
 
-/// Of linear display light in images of one extent. A pixel shows the mean of the samples that are decided in both; one without
-/// any is left out, and so is one that `changed` (one per pixel; empty: all) does not have.
+/// Compares linear display light in two images of one extent, pixel by pixel. A pixel shows the mean of the samples that are
+/// decided in both; one without any is left out, and so is one that `changed` (one per pixel; empty: all) does not have.
 DisplayError display_error(const ReferenceImage& got, const ReferenceImage& wanted, const std::vector<bool>& changed = {});
 
 }  // namespace strata

@@ -95,8 +95,9 @@ Result<std::optional<double>> parse_limit(const char* option, std::string text, 
         return fail(Fault::usage, "options.malformed", "{option} takes a number above 0, like 2{unit}, not '{value}'", option,
                     unit, given);
     if (!has_unit && unit == '%' && value >= 1)
-        return fail(Fault::usage, "options.share_above_1", "{option} {value} means {percent} %; write % behind a percentage",
-                    option, given, short_number(100 * value));
+        return fail(Fault::usage, "options.share_above_1",
+                    "{option} {value} is a limit of {percent} %; for a percentage, write % after the number", option, given,
+                    short_number(100 * value));
     return std::optional(has_unit ? value * factor : value);
 }
 
@@ -254,7 +255,8 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
     if (made.back().stopped.empty() && made.size() == options.captures.size()) {
         const auto open = std::ranges::find_if(made, is_unanswered);
         if (open == made.end()) return done;
-        return fail(Fault::over_tolerance, "report.no_answer", "no technique keeps the limits on {capture}", open->capture_name);
+        return fail(Fault::over_tolerance, "report.no_answer",
+                    "no technique on {capture} is within the limits of --error and --within", open->capture_name);
     }
     const std::string missing = made.back().stopped.empty() ? "stopped before the next capture" : made.back().stopped;
     if (signal.token().stop_requested()) return fail(Fault::stopped, "session.stopped", "{progress}", missing);

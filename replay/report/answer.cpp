@@ -1,7 +1,6 @@
 #include "replay/report/answer.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -25,9 +24,8 @@ bool keeps_time(const Standing& row, const Question& asked) {
 
 bool keeps_all(const Standing& row, const Question& asked) { return keeps_error(row, asked) && keeps_time(row, asked); }
 
-/// By which factor a row exceeds the limit that it exceeds most.
+/// The factor by which a ranked row exceeds the limit that it exceeds most.
 double excess(const Standing& row, const Question& asked) {
-    if (!row.error) return HUGE_VAL;
     const double error = asked.error ? *row.error / *asked.error : 0;
     return std::max(error, asked.within ? (row.time + row.spread) / *asked.within : 0);
 }
@@ -40,8 +38,6 @@ std::optional<std::size_t> least(std::span<const Standing> rows, const Keeps& ke
         if (keeps(rows[i]) && (!best || value(rows[i]) < value(rows[*best]))) best = i;
     return best;
 }
-
-bool are_as_fast(const Standing& a, const Standing& b) { return std::abs(a.time - b.time) <= a.spread + b.spread; }
 
 std::string metrics(const Standing& row, const AnswerNames& names) {
     const std::string error = fmt::format("{} {}", names.error.name, names.error.text(*row.error));
@@ -56,7 +52,7 @@ std::string limits(const Question& asked, const AnswerNames& names) {
     return text;
 }
 
-/// "the limit of error", "both limits": those that the row does not keep.
+/// The limits that a row does not keep: "the limit of error", "both limits".
 std::string missed(const Standing& row, const Question& asked) {
     const bool error = !keeps_error(row, asked), time = !keeps_time(row, asked);
     return error && time ? "both limits" : error ? "the limit of error" : "the limit of time";
@@ -139,9 +135,9 @@ Answer find_answer(std::span<const Standing> rows, std::optional<std::size_t> ba
     answer.recommended = suffices ? baseline : asked.error ? least(rows, keeps, time) : answer.most_accurate;
     const Standing& chosen = rows[*answer.recommended];
     answer.cheaper = least(
-        rows, [&](const Standing& row) { return row.error && row.time < chosen.time && !are_as_fast(row, chosen); }, error);
+        rows, [&](const Standing& row) { return row.error && row.time < chosen.time && !are_level(row, chosen); }, error);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (i == *answer.recommended || !keeps(rows[i]) || !are_as_fast(rows[i], chosen)) continue;
+        if (i == *answer.recommended || !keeps(rows[i]) || !are_level(rows[i], chosen)) continue;
         (rows[i].spread > largest_spread * rows[i].time ? answer.unsteady : answer.as_fast).push_back(i);
     }
     std::ranges::stable_sort(answer.as_fast, {}, [&](std::size_t i) { return error(rows[i]); });

@@ -2,13 +2,12 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "passes/stages.h"
 #include "replay/plural.h"
 #include "replay/report/report_columns.h"
 #include "replay/report/variants.h"
-#include "replay/shell_word.h"
+#include "replay/session/choice_text.h"
 #include "replay/tables/table.h"
 
 namespace strata {
@@ -49,21 +48,13 @@ std::string best_rows(const std::vector<Row>& rows, const std::vector<Standing>&
     return text;
 }
 
-/// The command that replays a row of a capture's first frames.
-std::string replaying_command(const Report& report, const Measurement& row) {
-    std::string command = fmt::format("strata replay {} --use {}", as_shell_word(report.capture_name), row.technique);
-    std::istringstream words(row.settings);
-    for (std::string word; words >> word;) command += fmt::format(" --set {}:{}", row.technique, word);
-    for (const std::string& option : report.options) command += " " + as_shell_word(option);
-    return command;
-}
-
 std::string answer_text(const Report& report) {
     if (!report.question.is_asked()) return "";
     AnswerNames names{.rows = {}, .error = ranking_error(report), .unit = below_stage(report.time_unit)};
     for (const Measurement& row : report.rows) {
         names.rows.push_back(short_label(row));
-        names.commands.push_back(replaying_command(report, row));
+        const Request request = request_of(row, report.base);
+        names.commands.push_back(replay_command(report.capture_name, request.variant, request.choices));
     }
     const auto baseline = baseline_of(report);
     if (baseline && report.rows[*baseline].sort_ms)

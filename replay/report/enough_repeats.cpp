@@ -11,8 +11,6 @@ bool settles(const Standing& one, const Standing& other) {
     return one.error && *one.error <= *other.error && one.time + one.spread < other.time - other.spread;
 }
 
-bool are_level(const Standing& a, const Standing& b) { return std::abs(a.time - b.time) <= a.spread + b.spread; }
-
 /// Whether the limit falls within the row's spread, and no row that surely keeps it is more accurate.
 bool hangs_on(const Standing& row, double most, std::span<const Standing> rows) {
     if (std::abs(row.time - most) > row.spread) return false;

@@ -1,6 +1,7 @@
 #include "replay/report/ranking.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/core.h>
 
@@ -11,6 +12,8 @@ namespace strata {
 std::string RankingError::text(double error) const {
     return is_of_white ? short_number(100 * error) + " %" : short_number(error);
 }
+
+bool are_level(const Standing& a, const Standing& b) { return std::abs(a.time - b.time) <= a.spread + b.spread; }
 
 std::vector<bool> pareto_front(std::span<const Standing> rows, Cost cost) {
     const auto beats = [&](const Standing& one, const Standing& other) {

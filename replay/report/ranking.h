@@ -8,7 +8,7 @@
 
 namespace strata {
 
-/// What rows are ranked by: "relative rmse touched".
+/// The error that ranks rows, by its name: "display rmse touched".
 struct RankingError {
     std::string name;
     bool is_of_white = false;  ///< a share of white, which people read in percent
@@ -23,6 +23,9 @@ struct Standing {
     double bytes_per_pixel = 0;  ///< whole ones: the few bytes of a counter are no cost
 };
 using Cost = double Standing::*;
+
+/// Whether the spreads do not tell their times apart.
+bool are_level(const Standing&, const Standing&);
 
 /// For each row whether no other is more accurate and no dearer, or cheaper and no less accurate; equal rows share the front.
 std::vector<bool> pareto_front(std::span<const Standing>, Cost);

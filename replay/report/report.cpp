@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/particles.h"
@@ -87,14 +88,6 @@ struct Shares {
     }
 };
 
-std::vector<std::string> options_of(const Request& base) {
-    std::vector<std::string> options;
-    for (const std::string& use : use_texts(base.choices)) options.insert(options.end(), {"--use", use});
-    for (const std::string& set : set_texts(base.choices)) options.insert(options.end(), {"--set", set});
-    if (base.variant.samples) options.insert(options.end(), {"--samples", fmt::format("{}", base.variant.samples)});
-    return options;
-}
-
 /// Whose time may be the unit first, at its defaults before its other settings: each group has it beside its rows.
 void put_unit_first(std::vector<Variant>& rows) {
     std::ranges::stable_sort(
@@ -136,6 +129,14 @@ std::optional<std::size_t> baseline_of(const Report& report) {
     return found == report.rows.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - report.rows.begin()));
 }
 
+Request request_of(const Measurement& row, Request base) {
+    const Technique& technique = **find_technique(row.technique);
+    base.choices.use(technique);
+    std::istringstream words(row.settings);
+    for (std::string word; words >> word;) base.choices.settings.push_back(*parse_setting(technique, word));
+    return base;
+}
+
 bool is_unanswered(const Report& report) {
     if (!report.question.is_asked() || !report.skipped.empty() || !report.stopped.empty()) return false;
     return !find_answer(standings(report.rows), baseline_of(report), report.question).recommended;
@@ -175,7 +176,7 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
     Report report{.stage = wanted.stage,
                   .capture_id = session.capture_id(),
                   .error_at = wanted.error_at,
-                  .options = options_of(wanted.base),
+                  .base = wanted.base,
                   .frame = wanted.base.variant.frame,
                   .repeats = wanted.repeats,
                   .least_repeats = wanted.least_repeats,

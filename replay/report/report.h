@@ -37,8 +37,8 @@ inline constexpr std::string_view other_truth_note = "measured against another t
 /// What errors are of: the stage's first output, or the picture that later stages make of it.
 enum class ErrorAt { stage, picture };
 
-/// What rows are ranked by where their stage has it: the error of what a display shows of radiance, or that of radiance itself,
-/// which the brightest sample decides.
+/// The error that ranks rows where their stage has it: that of radiance as a display shows it, or that of radiance itself, which
+/// the brightest sample decides.
 enum class RankedBy { display_rmse, relative_rmse };
 
 struct ReportRequest {
@@ -98,9 +98,9 @@ struct Report {
     std::string date = {};            ///< when it was made, utc_date(); the caller's
     std::vector<ReportTruth> truths;  ///< of its rows; the first is that of the first row
     ErrorAt error_at = ErrorAt::stage;
-    std::vector<std::string> options = {};  ///< of `strata replay`, for the choices of the other stages and the frame
-    std::size_t frame = 0, repeats = 0;     ///< of the row with the most; each has its own in its spreads
-    std::size_t least_repeats = 0;          ///< of the row with the fewest
+    Request base = {};                   ///< ReportRequest::base
+    std::size_t frame = 0, repeats = 0;  ///< of the row with the most; each has its own in its spreads
+    std::size_t least_repeats = 0;       ///< of the row with the fewest
     std::uint32_t width = 0, height = 0, samples = 1;
     DeviceInfo device;
     std::string time_unit;        ///< the technique whose time is 1; empty: none could be measured
@@ -118,9 +118,8 @@ Result<Report> make_report(Session&, const ReportRequest&, const Progress& = {})
 
 /// Marks the rows that no other row beats in both error and time, and in both error and memory.
 void mark_fronts(std::vector<Measurement>&);
-/// What a supported row is ranked and pooled by: frames differ in brightness and in how much of them the stage touches, so an
-/// error over what it touches where there is one. That of Measurement::ranked_by, else relative rmse, else the first figure of
-/// its judge.
+/// The figure by which a supported row is ranked and pooled: that of Measurement::ranked_by, else relative rmse, else the first
+/// of its judge. Frames differ in how much of them the stage changes, so it is over what the stage changes, where that is known.
 const Metric& ranking_metric(const Measurement&);
 /// Its name says whether it is over what the stage touches alone.
 RankingError ranking_error(const Measurement&);
@@ -129,6 +128,9 @@ RankingError ranking_error(const Measurement&);
 std::vector<Standing> standings(std::span<const Measurement>);
 /// The row whose time is 1, if it was measured.
 std::optional<std::size_t> baseline_of(const Report&);
+
+/// The request of a row of a report that started from a base.
+Request request_of(const Measurement&, Request base);
 
 /// Whether limits were asked for that no row keeps.
 bool is_unanswered(const Report&);

@@ -47,7 +47,7 @@ Column<Row> metric_column(const Metric& metric) {
     return {{.key = metric.name,
              .title = with_unit(metric),
              .help = is_known ? std::string(known->help) : "",
-             .kind = is_of_white(metric) ? CellKind::share : CellKind::number,
+             .kind = kind_of({metric.name, is_of_white(metric)}),
              .better = is_known ? known->better : Better::less,
              .shown = in_tables,  // JSON has them in technique_error, with their units
              .unit = metric.unit,
@@ -84,7 +84,7 @@ ColumnsOfRows errors(const Report& report) {
     columns.push_back({{.key = "ranking_error",
                         .title = title_of(ranking_error(report)),
                         .help = "error over the samples that the stage changes, where these are not all; rows are ranked by it",
-                        .kind = ranking_error(report).is_of_white ? CellKind::share : CellKind::number,
+                        .kind = kind_of(ranking_error(report)),
                         .better = Better::less,
                         .shown = in_csv | (is_shown ? unsigned{in_text} : 0u)},
                        [](const Row& row) { return ranking_metric(row).value; }});
@@ -323,6 +323,8 @@ const Measurement* first_measured(const Report& report) {
         std::ranges::find_if(report.rows, [](const Measurement& each) { return !each.accuracy.technique_errors.empty(); });
     return row == report.rows.end() ? nullptr : &*row;
 }
+
+CellKind kind_of(const RankingError& error) { return error.is_of_white ? CellKind::share : CellKind::number; }
 
 std::string title_of(const RankingError& error) { return error.name + (error.is_of_white ? ", % of white" : ""); }
 

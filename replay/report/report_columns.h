@@ -12,10 +12,11 @@ Sheet sheet_of(const Pool&);
 
 /// The first row that can do the frame, or null.
 const Measurement* first_measured(const Report&);
-/// What rows are ranked by: "relative rmse touched".
+/// The error that ranks the rows: "display rmse touched".
 RankingError ranking_error(const Report&);
-/// Above a column: "display rmse touched, % of white".
+/// The title of its column: "display rmse touched, % of white".
 std::string title_of(const RankingError&);
+CellKind kind_of(const RankingError&);
 /// Whether errors over what the stage touches say more than those over the frame.
 bool leaves_much(const Report&);
 

@@ -9,6 +9,9 @@
 #include "passes/registry.h"
 #include "passes/stages.h"
 #include "passes/technique.h"
+#include "replay/session/eye_move.h"
+#include "replay/session/frame_variant.h"
+#include "replay/shell_word.h"
 
 namespace strata {
 namespace {
@@ -107,6 +110,16 @@ std::vector<std::string> set_texts(const ChoiceChanges& changes) {
     std::vector<std::string> texts;
     for (const SettingChange& change : changes.settings) texts.push_back(text_of(change));
     return texts;
+}
+
+std::string replay_command(std::string_view capture, const FrameVariant& variant, const ChoiceChanges& choices) {
+    std::string line = fmt::format("strata replay {} --frames {}", as_shell_word(capture), variant.frame);
+    for (const std::string& use : use_texts(choices)) line += fmt::format(" --use {}", as_shell_word(use));
+    for (const std::string& set : set_texts(choices)) line += fmt::format(" --set {}", as_shell_word(set));
+    for (const Feature feature : variant.force) line += fmt::format(" --force {}", name(feature));
+    if (variant.samples != 0) line += fmt::format(" --samples {}", variant.samples);
+    if (const std::string eye = text(variant.eye); !eye.empty()) line += fmt::format(" --eye {}", as_shell_word(eye));
+    return line;
 }
 
 }  // namespace strata

@@ -10,7 +10,8 @@
 
 namespace strata {
 
-struct Technique;  // passes/technique.h
+struct FrameVariant;  // replay/session/frame_variant.h
+struct Technique;     // passes/technique.h
 
 /// A technique's name without its stage.
 std::string_view short_name(const Technique&);
@@ -36,5 +37,7 @@ Result<ParsedVariant> parse_variant(Stage, std::string_view text);
 std::vector<std::string> use_texts(const ChoiceChanges&);
 /// "stage/technique:key=value", or "key=value" of a change for every chosen technique that has the key.
 std::vector<std::string> set_texts(const ChoiceChanges&);
+/// "strata replay CAPTURE --frames 0 --use ... --set ... --force ... --samples ... --eye ...": replays a frame by these choices.
+std::string replay_command(std::string_view capture, const FrameVariant&, const ChoiceChanges&);
 
 }  // namespace strata

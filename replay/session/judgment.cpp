@@ -131,7 +131,7 @@ struct Radiance {
     const ReferenceImage& wanted;
 };
 
-/// Nothing of a stage that makes no radiance.
+/// Finds them; nothing for a stage that makes no radiance.
 std::optional<Radiance> radiance_of(const StageInfo& stage, const ImageSet& result, const ImageSet& truth) {
     const std::string_view picture = stage.outputs.front();
     const FrameImageRow* row = find_frame_image(picture);
@@ -140,20 +140,27 @@ std::optional<Radiance> radiance_of(const StageInfo& stage, const ImageSet& resu
     return Radiance{got->second, wanted->second};
 }
 
-/// Errors of the radiance by itself as the frame's recorded exposure and tone curve show it, behind the figures of a judge that
-/// has no such errors.
-void add_display_errors(const Radiance& radiance, const Frame& frame, const std::vector<bool>& changed,
-                        std::vector<Metric>& metrics) {
-    if (std::ranges::count(metrics, display_rmse, &Metric::name) > 0) return;
+/// That radiance by itself as the frame's recorded exposure and tone curve show it.
+struct DisplayLight {
+    ReferenceImage got, wanted;
+};
+
+DisplayLight display_light(const Radiance& radiance, const Frame& frame) {
     const auto shown = [&](const ReferenceImage& image) {
         return tone_mapped(image, double(frame.view.exposure), double(frame.film.white));
     };
-    const DisplayError error = display_error(shown(radiance.got), shown(radiance.wanted), changed);
+    return {shown(radiance.got), shown(radiance.wanted)};
+}
+
+/// Adds errors of display light behind the figures of a judge that has none.
+void add_display_errors(const DisplayLight& light, const std::vector<bool>& changed, std::vector<Metric>& metrics) {
+    if (std::ranges::count(metrics, display_rmse, &Metric::name) > 0) return;
+    const DisplayError error = display_error(light.got, light.wanted, changed);
     metrics.push_back({display_rmse, "of white", error.rmse, true});
     metrics.push_back({"over 5/255", "%", 100 * error.over_5_255, true});
 }
 
-/// By pixel: whether a decided sample is left of an image of which only what the stage changes was kept.
+/// Tells for each pixel whether a decided sample is left after keep_touched().
 std::vector<bool> changed_pixels(const ReferenceImage& touched) {
     const std::size_t pixels = std::size_t(touched.width) * touched.height;
     std::vector<bool> changed(pixels);
@@ -205,7 +212,8 @@ double undecided_share(const ImageSet& truth, std::string_view image) {
 std::vector<Metric> infinite_metrics(const StageInfo& of_stage, const ImageSet& truth, const StageInput& input) {
     if (!truth.contains(of_stage.outputs.front())) return {{"error", "", HUGE_VAL}};
     std::vector<Metric> metrics = of_stage.judge(truth, truth, input);
-    if (const auto radiance = radiance_of(of_stage, truth, truth)) add_display_errors(*radiance, input.frame, {}, metrics);
+    if (const auto radiance = radiance_of(of_stage, truth, truth))
+        add_display_errors(display_light(*radiance, input.frame), {}, metrics);
     for (Metric& metric : metrics) metric.value = HUGE_VAL;
     return metrics;
 }
@@ -243,14 +251,13 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
     accuracy.technique_errors = of_stage.judge(stage.result, truth, input);
     const auto radiance = radiance_of(of_stage, stage.result, truth);
     if (!radiance) return;
-    add_display_errors(*radiance, stage.frame, {}, accuracy.technique_errors);
+    const DisplayLight light = display_light(*radiance, stage.frame);  // before samples that the stage leaves are left out
+    add_display_errors(light, {}, accuracy.technique_errors);
     accuracy.flip = radiance_flip(color_planes(radiance->wanted), color_planes(radiance->got)).mean;
-    const ReferenceImage whole = radiance->wanted;
     if (const auto share = keep_touched(of_stage, stage.before, truth)) {
         accuracy.touched_share = *share;
         accuracy.touched = of_stage.judge(stage.result, truth, input);
-        // Of a pixel all samples show, also those that the stage leaves.
-        add_display_errors({radiance->got, whole}, stage.frame, changed_pixels(radiance->wanted), accuracy.touched);
+        add_display_errors(light, changed_pixels(radiance->wanted), accuracy.touched);
     }
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <sstream>
 
 #include "capture_format/frame/frame.h"
 #include "passes/registry.h"
@@ -12,7 +11,6 @@
 #include "replay/plural.h"
 #include "replay/report/report_columns.h"
 #include "replay/report/variants.h"
-#include "replay/session/choice_text.h"
 #include "replay/tables/table.h"
 #include "ui/window/theme.h"
 
@@ -220,14 +218,6 @@ Request report_base(Request request, Stage stage) {
     request.choices.drop(stage);
     request.outputs = Request().outputs;
     return request;
-}
-
-Request request_of(const Measurement& row, Request base) {
-    const Technique& technique = **find_technique(row.technique);
-    base.choices.use(technique);
-    std::istringstream words(row.settings);
-    for (std::string word; words >> word;) base.choices.settings.push_back(*parse_setting(technique, word));
-    return base;
 }
 
 std::optional<std::size_t> row_of(const Report& report, const Choice& choice) {

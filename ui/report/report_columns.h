@@ -79,8 +79,6 @@ std::vector<ReportRemark> remarks_of(const Report&);
 /// The choices that a report of a stage starts from: those of the other stages. A row says what it measures, not what the stage
 /// happens to be set to.
 Request report_base(Request, Stage);
-/// What was measured for a row of a report that started from a base.
-Request request_of(const Measurement&, Request base);
 /// The row that has a choice's technique and all its settings, of those that were measured.
 std::optional<std::size_t> row_of(const Report&, const Choice&);
 
