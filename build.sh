@@ -20,7 +20,7 @@ packages=(
     libopenexr-dev libdeflate-dev nlohmann-json3-dev libcli11-dev
     libimgui-dev libglfw3-dev fonts-dejavu-core
 )
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format git xvfb xdotool x11-apps xclip libx11-dev chromium-common libjemalloc2)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format git xvfb xdotool x11-apps xclip libx11-dev chromium-common chromium-headless-shell libjemalloc2)
 clang_packages=(clang-16 libclang-rt-16-dev llvm-16)
 tidy_packages=(clang-16 clang-tidy-16)
 

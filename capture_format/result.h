@@ -65,7 +65,8 @@ struct ErrorField {
     SafeVariant<std::int64_t, std::uint64_t, double, std::string> value;
 };
 
-struct [[nodiscard]] Error {
+// The analyzer copies the error of a Result that has a value.
+struct [[nodiscard]] Error {  // NOLINT(clang-analyzer-core.uninitialized.Assign)
     Fault fault = Fault::bad_input;
     std::string sentence;
     ErrorId id;

@@ -34,6 +34,9 @@ Result<void> check(const GltfOptions& options) {
         return fail(Fault::usage, "import.gltf.eye_is_target", "the eye and its target are the same point");
     if (options.fov && !(*options.fov >= 1 && *options.fov <= 170))
         return fail(Fault::usage, "import.gltf.fov_range", "the field of view must be 1 to 170 degrees, not {fov}", *options.fov);
+    if (options.exposure && !(std::isfinite(*options.exposure) && *options.exposure > 0))
+        return fail(Fault::usage, "import.gltf.exposure_range", "the exposure must be above 0, not {exposure}",
+                    *options.exposure);
     if (options.width == 0 || options.height == 0 || (options.samples != 1 && options.samples != 4)) {
         return fail(Fault::usage, "import.gltf.extent", "{width} x {height} pixels with {samples} samples cannot be rendered",
                     options.width, options.height, options.samples);

@@ -32,6 +32,8 @@ struct GltfOptions {
     std::optional<glm::dvec3> eye, target;
     /// Degrees from the bottom to the top of the picture, of all but the file's cameras; without it as the view needs.
     std::optional<double> fov;
+    /// Factor from radiance to what the film sees; without it as the lights need.
+    std::optional<float> exposure;
     bool inside = false;        ///< the camera stands within the scene where it sees farthest, as for a closed room
     std::optional<double> fps;  ///< frames per second of the animation, default 30
     std::string animation;      ///< by name or index; empty: the first one, if there is one

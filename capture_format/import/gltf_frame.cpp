@@ -316,7 +316,7 @@ Result<void> FrameSource::set_view(Making& making) {
 
 /// A file without lights gets a sun and a sky; shadows are scaled to the scene. glTF lights are physical and its cameras have
 /// no exposure: a lamp of 180 candela a meter away makes paper 57 times as bright as white. Where lights could make a white
-/// surface brighter than the film's white, that becomes its white.
+/// surface brighter than the film's white, or no brighter than a 64th of it, that becomes its white.
 void FrameSource::set_light(Making& making) {
     Frame& frame = making.frame;
     for (const std::string& warning : add_lights(frame, document_, hierarchy_, making.to_world)) warn(warning);
@@ -324,16 +324,21 @@ void FrameSource::set_light(Making& making) {
         warn("there are no lights; a sun and a sky are added");
         add_default_light(frame);
     }
+    end_lights(frame, making.scene);
     const double radius = making.scene.radius();
     const float bias = static_cast<float>(std::min(0.02, radius * 0.004));
     frame.sun.shadow.bias = bias;
     for (Light& light : frame.lights) light.shadow.bias = bias;
     frame.sun.shadow_distance = static_cast<float>(glm::length(making.scene.center() - frame.view.origin) + radius);
+    if (!exposure_) exposure_ = options_.exposure;
     if (!exposure_) {
         const double white = white_radiance(frame, making.scene), film = static_cast<double>(frame.film.white);
-        const bool is_bright = white > film && std::isfinite(white);  // a light that is not finite is refused as such
-        exposure_ = is_bright ? std::max(static_cast<float>(film / white), std::numeric_limits<float>::min()) : 1.0f;
-        if (is_bright) {
+        constexpr double darkest = 1. / 64;
+        // A light that is not finite is refused as such.
+        const bool is_far_off = std::isfinite(white) && white > 0 && (white > film || white < darkest * film);
+        constexpr double least = std::numeric_limits<float>::min(), most = std::numeric_limits<float>::max();
+        exposure_ = is_far_off ? static_cast<float>(std::clamp(film / white, least, most)) : 1.0f;
+        if (is_far_off) {
             warn(fmt::format("the lights make a white surface as bright as {:.3g}; the exposure is {:.3g}", white, *exposure_));
         }
     }

@@ -68,7 +68,7 @@ private:
     std::optional<Geometry> geometry_;
     std::map<const Node*, std::vector<glm::dmat4>> instances_;  ///< of nodes that show a mesh, instance to node
     std::optional<View> framing_;                               ///< of all frames that no camera sees
-    std::optional<float> exposure_;                             ///< of frame 0
+    std::optional<float> exposure_;                             ///< of all frames: as asked for, or frame 0's
     std::vector<std::string> warnings_;
     std::set<std::string> warned_;
 };

@@ -12,14 +12,20 @@
 namespace strata::gltf {
 namespace {
 
-/// glTF lights without a range reach infinitely far; ours end where less than this irradiance, in W/m^2, is left.
-constexpr double unnoticed_irradiance = 1.0 / 256;
+/// glTF lights without a range reach infinitely far; ours end where less than this share of a white surface's light is left, or
+/// of an irradiance of 1, but there only as far as the scene is wide.
+constexpr double unnoticed_share = 1.0 / 256;
+/// A scene ends within three times the distance that lights are judged at.
+constexpr double scene_ends_within = 3;
 /// Half angles from here on are no spot: the tangent of a shadow map's frustum grows without bound.
 constexpr double widest_spot = 0.49 * std::numbers::pi;
 
 glm::vec3 any_perpendicular(glm::vec3 axis) {
     return glm::normalize(glm::cross(axis, std::abs(axis.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)));
 }
+
+/// Of a light without a range, until end_lights().
+constexpr float endless = std::numeric_limits<float>::max();
 
 Light convert_light(const LightSource& source, const glm::dmat4& to_world) {
     Light light;
@@ -30,9 +36,8 @@ Light convert_light(const LightSource& source, const glm::dmat4& to_world) {
     light.axis_u = any_perpendicular(light.direction);
     const glm::dvec3 intensity = source.color * source.intensity;
     light.intensity = glm::vec3(intensity);
-    const double brightest = std::max({intensity.x, intensity.y, intensity.z, 1e-6});
     light.window = RangeWindow::quartic;
-    light.range = static_cast<float>(source.range > 0 ? source.range : std::sqrt(brightest / unnoticed_irradiance));
+    light.range = source.range > 0 ? static_cast<float>(source.range) : endless;
     if (source.type == "directional") light.type = LightType::directional;
     if (source.type == "spot") {
         light.type = LightType::round_spot;
@@ -64,6 +69,12 @@ void warn_of_light(std::vector<std::string>& warnings, int number, const LightSo
     if (source.type == "spot" && source.inner_angle > source.outer_angle)
         warn(fmt::format("has an inner cone of {:g} and an outer of {:g} radians; the outer is used for both", source.inner_angle,
                          source.outer_angle));
+}
+
+double brightest(const glm::vec3& color) { return static_cast<double>(std::max({color.x, color.y, color.z})); }
+
+double distance_to(const Bounds& scene, const Light& light) {
+    return std::max(glm::length(light.position - scene.center()), scene.radius() * 0.5);
 }
 
 }  // namespace
@@ -105,11 +116,20 @@ void add_default_light(Frame& frame) {
     frame.background = glm::vec3(0.25f, 0.3f, 0.38f);
 }
 
+void end_lights(Frame& frame, const Bounds& scene) {
+    const double white = std::numbers::pi * white_radiance(frame, scene);
+    for (Light& light : frame.lights) {
+        if (light.range != endless) continue;
+        const double intensity = std::max(brightest(light.intensity), 1e-6);
+        const double in_scene = std::min(std::sqrt(intensity / unnoticed_share), scene_ends_within * distance_to(scene, light));
+        light.range = static_cast<float>(std::max(in_scene, white > 0 ? std::sqrt(intensity / (unnoticed_share * white)) : 0));
+    }
+}
+
 double white_radiance(const Frame& frame, const Bounds& scene) {
-    const auto brightest = [](glm::vec3 color) { return static_cast<double>(std::max({color.x, color.y, color.z})); };
     double irradiance = brightest(frame.sun.irradiance);
     for (const Light& light : frame.lights) {
-        const double distance = std::max(glm::length(light.position - scene.center()), scene.radius() * 0.5);
+        const double distance = distance_to(scene, light);
         const bool reaches = !has_range(light.type) || distance < static_cast<double>(light.range);
         const double falloff = has_range(light.type) ? distance * distance : 1;
         if (reaches) irradiance += brightest(light.intensity) / falloff;

@@ -15,6 +15,9 @@ namespace strata::gltf {
 /// Lights of KHR_lights_punctual on shown nodes into the frame: the first directional one is the sun. Returns warnings.
 std::vector<std::string> add_lights(Frame&, const Document&, const Hierarchy&, const std::vector<glm::dmat4>& to_world);
 
+/// Gives the lights without a range one at which they end unseen: glTF's reach infinitely far.
+void end_lights(Frame&, const Bounds&);
+
 /// A sun and a sky, so that there is something to see.
 void add_default_light(Frame&);
 

@@ -1,5 +1,6 @@
 #include "capture_format/import/stb_problem.h"
 
+#include <cerrno>
 #include <new>
 
 #include <stb_image.h>
@@ -26,7 +27,7 @@ bool stb_gave_a_reason() {
 std::string_view stb_problem(std::string_view otherwise) {
     const char* const reason = stbi_failure_reason();
     const std::string_view problem = reason ? reason : "";
-    if (problem == "outofmem") throw std::bad_alloc();
+    if (problem == "outofmem" || (problem == "can't fopen" && errno == ENOMEM)) throw std::bad_alloc();
     return problem.empty() ? otherwise : problem;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 #include "passes/error_sums.h"
 #include "passes/reference/difference.h"
@@ -13,6 +15,22 @@ namespace strata {
 namespace {
 
 double encoded(double linear) { return linear_to_srgb(std::clamp(linear, 0., 1.)); }
+
+/// Of encoded light: a picture of 8 bits shows it as white, or as black.
+bool is_clipped(const glm::dvec3& color) {
+    constexpr double half_a_step = .5 / 255;
+    return glm::all(glm::greaterThanEqual(color, glm::dvec3(1 - half_a_step))) ||
+           glm::all(glm::lessThanEqual(color, glm::dvec3(half_a_step)));
+}
+
+double concentration_of(std::vector<double> squares) {
+    constexpr std::size_t of_worst = 1000;
+    const double all = std::accumulate(squares.begin(), squares.end(), 0.);
+    if (!(all > 0) || !std::isfinite(all)) return 0;
+    const auto worst = squares.begin() + std::ptrdiff_t(std::max<std::size_t>(1, squares.size() / of_worst));
+    std::ranges::nth_element(squares, worst - 1, std::greater{});
+    return std::accumulate(squares.begin(), worst, 0.) / all;
+}
 
 }  // namespace
 
@@ -36,7 +54,8 @@ DisplayError display_error(const ReferenceImage& got, const ReferenceImage& want
     assert(got.width == wanted.width && got.height == wanted.height && got.layers == wanted.layers);
     DisplayError error;
     ErrorSums sums;
-    std::size_t over_1 = 0, over_5 = 0;
+    std::size_t over_1 = 0, over_5 = 0, clipped = 0;
+    std::vector<double> squares;
     const std::size_t pixels = std::size_t(wanted.width) * wanted.height;
     for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
         if (!changed.empty() && !changed[pixel]) continue;
@@ -48,17 +67,25 @@ DisplayError display_error(const ReferenceImage& got, const ReferenceImage& want
             ++samples;
         }
         if (samples == 0) continue;
-        double worst = 0;
-        for (int c = 0; c < 3; ++c)
-            worst = std::max(worst,
-                             std::abs(sums.add(encoded(got_sum[c] / double(samples)), encoded(wanted_sum[c] / double(samples)))));
+        double worst = 0, square = 0;
+        glm::dvec3 shown;
+        for (int c = 0; c < 3; ++c) {
+            shown[c] = encoded(wanted_sum[c] / double(samples));
+            const double off = sums.add(encoded(got_sum[c] / double(samples)), shown[c]);
+            worst = std::max(worst, std::abs(off)), square += off * off;
+        }
+        squares.push_back(square);
+        clipped += is_clipped(shown);
         over_1 += worst > 1. / 255, over_5 += worst > 5. / 255;
         error.worst = std::max(error.worst, worst);
         ++error.pixels;
     }
     error.rmse = sums.rmse();
-    error.over_1_255 = double(over_1) / double(std::max<std::size_t>(1, error.pixels));
-    error.over_5_255 = double(over_5) / double(std::max<std::size_t>(1, error.pixels));
+    const auto share = [&](std::size_t of_them) { return double(of_them) / double(std::max<std::size_t>(1, error.pixels)); };
+    error.over_1_255 = share(over_1);
+    error.over_5_255 = share(over_5);
+    error.clipped_share = share(clipped);
+    error.concentration = concentration_of(std::move(squares));
     return error;
 }
 

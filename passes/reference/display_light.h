@@ -20,7 +20,11 @@ struct DisplayError {
     double worst = 0;       ///< of white
     double over_1_255 = 0;  ///< share of the compared pixels of which a color is off by more
     double over_5_255 = 0;
-    std::size_t pixels = 0;  ///< compared
+    std::size_t pixels = 0;    ///< compared
+    double clipped_share = 0;  ///< of them: what is wanted shows as white or as black, where errors of light do not show
+    /// Share of the squared error that the worst thousandth of these pixels has, which is one pixel at least; 0 where the error
+    /// is 0 or infinite.
+    double concentration = 0;
 };
 
 /// Compares linear display light in two images of one extent, pixel by pixel. A pixel shows the mean of the samples that are

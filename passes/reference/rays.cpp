@@ -84,7 +84,7 @@ void RayScene::build(std::uint32_t node, std::uint32_t first, std::uint32_t coun
 bool RayScene::solid(const Triangle& triangle, const glm::dvec3& barycentric) const {
     const Material& material = *material_of(*frame_, triangle.draw);
     if (material.alpha_mode != AlphaMode::mask) return true;
-    return alpha_at(*frame_, triangle.draw, triangle.triangle, barycentric) >= double(material.mask_cutoff);
+    return reaches_cutoff(alpha_at(*frame_, triangle.draw, triangle.triangle, barycentric), material);
 }
 
 std::optional<Hit> RayScene::intersect(const Triangle& triangle, const Span& ray) const {

@@ -6,7 +6,8 @@ namespace strata {
 struct Frame;  // capture_format/frame.h
 
 /// Radiance in the frame's unit, the largest of: a white surface in the sun, sky, ground, fog, and a white surface that faces a
-/// light at a quarter of its range (docs/algorithms/transparency.md 0.5). 0 without light.
+/// light at a quarter of its range or at the scene's distance from it, the nearer (docs/algorithms/transparency.md 0.5). 0
+/// without light.
 double white_radiance(const Frame&);
 
 }  // namespace strata

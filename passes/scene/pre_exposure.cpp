@@ -5,11 +5,14 @@
 #include <limits>
 #include <numbers>
 
+#include "capture_format/frame/draw.h"
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/light.h"
 #include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
 #include "capture_format/frame/particles.h"
 #include "capture_format/light_types.h"
+#include "passes/scene/draw_bounds.h"
 
 namespace strata {
 namespace {
@@ -28,12 +31,41 @@ double seen_area(const Light& light) {
     return shape == LightShape::tube ? disc + 4 * radius * double(light.half_extent.x) : disc;
 }
 
-/// Radiance of a white surface that faces the light at a quarter of its range.
-double lit_white(const Light& light) {
+/// The box around those of all draws, in world space; nothing without draws.
+std::optional<BoundingBox> scene_box(const Frame& frame) {
+    std::vector<BoundingBox> of_meshes;
+    of_meshes.reserve(frame.meshes.size());
+    for (const Mesh& mesh : frame.meshes) of_meshes.push_back(box_around(mesh.positions));
+    std::optional<BoundingBox> scene;
+    for (const Draw& draw : frame.draws) {
+        const BoundingBox& box = of_meshes[draw.mesh];
+        for (unsigned i = 0; i < 8; ++i) {
+            const glm::dvec3 corner(i & 1u ? box.high.x : box.low.x, i & 2u ? box.high.y : box.low.y,
+                                    i & 4u ? box.high.z : box.low.z);
+            const glm::dvec3 placed(draw.to_world * glm::dvec4(corner, 1));
+            if (!scene) scene = BoundingBox{placed, placed};
+            scene->low = glm::min(scene->low, placed), scene->high = glm::max(scene->high, placed);
+        }
+    }
+    return scene;
+}
+
+/// From the light to what it lights: a quarter of its range, or as far as the scene's middle, where that is nearer. Within the
+/// scene it is half of the scene's radius.
+double lit_distance(const Light& light, const std::optional<BoundingBox>& scene) {
+    const double own = double(light.range) / 4;
+    if (!scene) return own;
+    const double radius = glm::distance(scene->low, scene->high) / 2;
+    const double away = std::max(glm::distance(light.position, (scene->low + scene->high) / 2.), radius / 2);
+    return away > 0 ? std::min(own, away) : own;
+}
+
+/// Radiance of a white surface that faces the light there.
+double lit_white(const Light& light, const std::optional<BoundingBox>& scene) {
     const double intensity = brightest(light.intensity);
     const LightShape shape = facts_of(light.type).shape;
     if (shape == LightShape::parallel) return intensity / std::numbers::pi;
-    const double distance = double(light.range) / 4, sphere = distance * distance * std::numbers::pi;
+    const double distance = lit_distance(light, scene), sphere = distance * distance * std::numbers::pi;
     if (!(sphere > 0)) return 0;
     return shape == LightShape::point ? intensity / sphere : intensity * std::min(1., seen_area(light) / sphere);
 }
@@ -42,7 +74,8 @@ double lit_level(const Frame& frame) {
     double level = brightest(frame.sun.irradiance) / std::numbers::pi;
     for (const glm::vec3& color : {frame.hemisphere.sky, frame.hemisphere.ground}) level = std::max(level, brightest(color));
     if (frame.fog.density > 0) level = std::max(level, brightest(frame.fog.color));
-    for (const Light& light : frame.lights) level = std::max(level, lit_white(light));
+    const std::optional<BoundingBox> scene = frame.lights.empty() ? std::nullopt : scene_box(frame);
+    for (const Light& light : frame.lights) level = std::max(level, lit_white(light, scene));
     return level;
 }
 

@@ -13,8 +13,9 @@ struct Frame;  // capture_format/frame.h
 /// 1 / white_level(). More light and less exposure by the same factor give the same products. Positive and finite.
 double pre_exposure(const Frame&);
 
-/// About the radiance of a white surface: in sun, sky and fog, and under each light alone at a quarter of its range. Nothing
-/// where no light is recorded. In the unit of the frame's light, pre-exposed or not.
+/// About the radiance of a white surface: in sun, sky and fog, and under each light alone at a quarter of its range or, where
+/// that is nearer, as far as the middle of the scene (a light without an end has a range beyond it). Nothing where no light is
+/// recorded. In the unit of the frame's light, pre-exposed or not.
 std::optional<double> white_level(const Frame&);
 
 /// Multiplies lights, sky, fog, background and emission by the factor and divides the exposure by it. What has no radiance of its

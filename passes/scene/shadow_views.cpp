@@ -85,6 +85,10 @@ void add_cascades(const Frame& frame, std::span<const BoundingSphere> casters, s
     }
 }
 
+// Meters from a local light at which its maps begin; what is nearer is its housing. A range says how far a light shines, not how
+// near its casters are, and depth is a float, near / distance: as fine for any near.
+constexpr double housing = 0.05;
+
 // Wider than the pyramid by the margin, so that kernels at its rim find their texels.
 ShadowView local_view(const Frame& frame, const Light& light, const LightPyramid& pyramid, std::uint32_t size) {
     const glm::dvec2 slopes = pyramid.slopes * (size / (size - 2 * margin(size)));
@@ -92,8 +96,8 @@ ShadowView local_view(const Frame& frame, const Light& light, const LightPyramid
     const auto row = [&](const glm::dvec3& axis) { return glm::dvec4(axis, -glm::dot(axis, position)); };
     const glm::dvec4 w = row(pyramid.along);
     ShadowView view;
-    view.view_to_map = from_rows(0.5 * (w + row(pyramid.u) / slopes.x), 0.5 * (w + row(pyramid.v()) / slopes.y),
-                                 {0, 0, 0, std::max(0.05, 0.01 * double(light.range))}, w);
+    view.view_to_map =
+        from_rows(0.5 * (w + row(pyramid.u) / slopes.x), 0.5 * (w + row(pyramid.v()) / slopes.y), {0, 0, 0, housing}, w);
     view.size = size;
     view.bias = double(light.shadow.bias);
     view.range_end = double(std::numeric_limits<float>::max());

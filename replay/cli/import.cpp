@@ -211,7 +211,7 @@ Result<void> import(const ImportArguments& options, const CLI::App& app) {
     if (options.deep) {
         const auto fits = check_not_given(app,
                                           {"--size", "--samples", "--camera", "--eye", "--target", "--inside", "--fov",
-                                           "--azimuth", "--elevation", "--frames", "--fps", "--animation"},
+                                           "--azimuth", "--elevation", "--exposure", "--frames", "--fps", "--animation"},
                                           "a deep image is one frame with a view of its own");
         if (!fits) return fits;
         const auto no_device = check_not_given(app, {"--gpu"}, "a deep image is imported without a device");
@@ -286,6 +286,8 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
     point("--eye", options->eye, "position of the camera as X,Y,Z in meters; replaces the scene's camera");
     point("--target", options->target, "point the --eye camera looks at, as X,Y,Z in meters; default: the center of the scene");
     app.add_option("--fov", options->gltf.fov, "vertical field of view in degrees, for a camera that is not from the scene");
+    app.add_option("--exposure", options->gltf.exposure,
+                   "factor from radiance to what the film sees, above 0; default: 1, or what the scene's lights need");
     app.add_flag("--inside", options->gltf.inside,
                  "place the camera inside the scene, at the point with the longest view (for closed rooms)");
     app.add_option("--frames", options->frames, "number of frames to import, default 1; the animation loops")

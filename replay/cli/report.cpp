@@ -20,8 +20,10 @@
 #include "replay/cli/verb_options.h"
 #include "replay/progress_line.h"
 #include "replay/report/hard_cases.h"
+#include "replay/report/page/page.h"
 #include "replay/report/report_columns.h"
 #include "replay/report/variants.h"
+#include "replay/report/warnings.h"
 #include "replay/session/choice_text.h"
 #include "replay/tables/table.h"
 
@@ -102,6 +104,7 @@ Result<std::optional<double>> parse_limit(const char* option, std::string text, 
 }
 
 std::string written(OutputFormat format, std::span<const Report> made) {
+    if (format == OutputFormat::html) return as_html(made[0]);
     if (made.size() == 1) return in_format(format, made[0]);
     const Pool pool = pooled(made);
     if (format == OutputFormat::json) return as_json(made, pool);
@@ -162,7 +165,15 @@ Result<ReportRequest> request_of(const ReportArguments& options) {
     }
     wanted.techniques = options.techniques;
     wanted.defaults_only = options.defaults;
-    const auto error = parse_limit("--error", options.error, '%', .01), within = parse_limit("--within", options.within, 'x', 1);
+    constexpr std::string_view of_radiance = "relative:";
+    std::string limit = options.error;
+    if (limit.starts_with(of_radiance)) {
+        limit.erase(0, of_radiance.size());
+        wanted.ranked_by = RankedBy::relative_rmse;
+        if (limit.empty())
+            return fail(Fault::usage, "options.malformed", "{option} takes relative:3%, not '{value}'", "--error", options.error);
+    }
+    const auto error = parse_limit("--error", limit, '%', .01), within = parse_limit("--within", options.within, 'x', 1);
     if (!error) return error.error();
     if (!within) return within.error();
     wanted.question = {.error = *error, .within = *within};
@@ -203,7 +214,10 @@ Result<void> report_hard_cases(const ReportArguments& options) {
 }
 
 Result<void> report(const ReportArguments& options, const CLI::App& app) {
-    if (const auto fits = check_ending(options.output); !fits) return fits;
+    TableOutput output = options.output;
+    output.may_be_page = !options.hard_cases;
+    if (const auto fits = check_ending(output); !fits) return fits;
+    const OutputFormat format = file_format(output, OutputFormat::text);
     if (options.hard_cases) {
         const auto fits = check_not_given(
             app,
@@ -215,9 +229,13 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
     if (options.captures.empty())
         return fail(Fault::usage, "options.missing", "a {option} is required; --hard-cases builds frames and needs none",
                     "capture");
+    if (format == OutputFormat::html && options.captures.size() > 1)
+        return fail(Fault::usage, "report.page_of_one", "a page shows one capture, not {captures}; write one page for each",
+                    options.captures.size());
     const auto wanted = request_of(options);
     if (!wanted) return wanted.error();
     ReportRequest request = *wanted;
+    request.wants_pictures = format == OutputFormat::html;
     request.on_row = [](const Measurement& row, std::size_t place, std::size_t of) {
         const std::string row_label = label(row.technique, row.settings);
         if (!row.accuracy.not_supported.empty()) return to_stderr("strata: {} of {}  {}: not supported\n", place, of, row_label);
@@ -250,11 +268,15 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
         made.push_back(*std::move(report));
         if (deadline.token().stop_requested()) break;
     }
-    const auto done = write(options, written(file_format(options.output, OutputFormat::text), made));
+    const auto done = write(options, written(format, made));
     if (!done) return done;
     if (made.back().stopped.empty() && made.size() == options.captures.size()) {
         const auto open = std::ranges::find_if(made, is_unanswered);
         if (open == made.end()) return done;
+        if (changes_too_little(*open))
+            return fail(Fault::over_tolerance, "report.too_few_pixels",
+                        "the stage changes fewer than {fewest} pixels of {capture}: too few for an answer", fewest_pixels,
+                        open->capture_name);
         return fail(Fault::over_tolerance, "report.no_answer",
                     "no technique on {capture} is within the limits of --error and --within", open->capture_name);
     }
@@ -287,9 +309,10 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
                        "techniques to measure with their settings, like 'moments kind=power6,weighted'; default: all");
     techniques->delimiter(',')->allow_extra_args(false);
     app.add_flag("--defaults", options->defaults, "measure each technique only at its default settings")->excludes(techniques);
-    app.add_option("--error", options->error,
-                   "answer which technique is fastest with at most this error, like 1%: of white, or relative "
-                   "with --metric relative");
+    app.add_option(
+        "--error", options->error,
+        "answer which technique is fastest with at most this error, like 1%: of white (below .5 % it is not seen, 1 to "
+        "2 % is seen when looked for, over 5 % is obvious); relative:3% is of radiance");
     app.add_option("--error-at", options->error_at,
                    "measure errors of the stage's output, or of the picture that the later stages make of it")
         ->check(one_of({"stage", "picture"}));
@@ -321,7 +344,8 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
     app.add_option("--pan", options->pan, "degrees that the camera turns to the right in all, default 5")->needs("--flicker");
     add_formats(app, options->output);
     add_output_file(app, options->output,
-                    "write the report to this file instead of stdout, in the format of its ending: .json, .csv, .md or .txt");
+                    "write the report to this file instead of stdout, in the format of its ending: .html (a page with plots and "
+                    "pictures), .json, .csv, .md or .txt");
     return [options, &app] { return report(*options, app); };
 }
 

@@ -13,11 +13,12 @@ class App;
 
 namespace strata {
 
-enum class OutputFormat { text, json, csv, markdown };
+enum class OutputFormat { text, json, csv, markdown, html };
 
 struct TableOutput {
     bool json = false, csv = false;
     std::filesystem::path file;  ///< empty: none
+    bool may_be_page = false;    ///< the verb makes pages, too: .html
 };
 
 /// --json and --csv.
@@ -35,10 +36,12 @@ OutputFormat file_format(const TableOutput&, OutputFormat otherwise);
 /// The date of what is written, utc_date(): now, or what the environment's SOURCE_DATE_EPOCH says (seconds since 1970).
 std::string date_of_output();
 
+/// Not of pages, which a verb makes itself.
 template <typename Made>
 std::string in_format(OutputFormat format, const Made& made) {
     switch (format) {
         case OutputFormat::text:
+        case OutputFormat::html:
             break;
         case OutputFormat::json:
             return as_json(made);

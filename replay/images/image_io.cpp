@@ -256,18 +256,43 @@ Result<NamedImages> read_exr(const std::filesystem::path& path) {
     return read_exr(path, budget);
 }
 
-Result<NamedImages> read_exr(const std::filesystem::path& path, MemoryBudget& budget) {
+namespace {
+
+/// OpenEXR calls a file damaged when zlib gets no memory. What is damaged still is when it is read again; where memory has ended,
+/// std::bad_alloc comes as soon as the file is opened.
+template <typename Work>
+std::invoke_result_t<Work> tried_twice(const Work& work) {
     try {
-        Imf::MultiPartInputFile file(path.c_str());
-        NamedImages images;
-        for (int part = 0; part < file.parts(); ++part) {
-            auto image = read_part(file, part, budget);
-            if (!image) return within(image.error(), "cannot read {file}", path.string());
-            const std::string name = file.header(part).hasName() ? file.header(part).name() : "image";
-            if (const auto added = add_part(images, name, *std::move(image)); !added)
-                return within(added.error(), "cannot read {file}", path.string());
-        }
-        return images;
+        return work();
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) {
+        return work();
+    }
+}
+
+Result<NamedImages> parts_of_exr(const std::filesystem::path& path, MemoryBudget& budget) {
+    Imf::MultiPartInputFile file(path.c_str());
+    NamedImages images;
+    for (int part = 0; part < file.parts(); ++part) {
+        auto image = read_part(file, part, budget);
+        if (!image) return within(image.error(), "cannot read {file}", path.string());
+        const std::string name = file.header(part).hasName() ? file.header(part).name() : "image";
+        if (const auto added = add_part(images, name, *std::move(image)); !added)
+            return within(added.error(), "cannot read {file}", path.string());
+    }
+    return images;
+}
+
+}  // namespace
+
+Result<NamedImages> read_exr(const std::filesystem::path& path, MemoryBudget& budget) {
+    const MemoryBudget before = budget;
+    try {
+        return tried_twice([&] {
+            budget = before;
+            return parts_of_exr(path, budget);
+        });
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& problem) {

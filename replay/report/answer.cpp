@@ -65,50 +65,58 @@ public:
                 const AnswerNames& names)
         : rows_(rows), baseline_(baseline), asked_(asked), names_(names), answer_(find_answer(rows, baseline, asked)) {}
 
-    std::string text() const {
-        std::string text = fmt::format("answer for {}: ", limits(asked_, names_));
-        text += answer_.recommended ? recommendation() : nearest();
+    std::vector<AnswerLine> lines() const {
+        std::vector<AnswerLine> lines = answer_.recommended ? recommendation() : nearest();
+        lines.front().head = "answer for " + limits(asked_, names_);
         const auto shown = answer_.recommended ? answer_.recommended : answer_.nearest;
         if (baseline_ && baseline_ != shown && rows_[*baseline_].error)
-            text += fmt::format(
-                "the baseline {} {}{}\n", row(*baseline_),
-                keeps_all(rows_[*baseline_], asked_) ? "keeps it, too" : "misses " + missed(rows_[*baseline_], asked_), note());
-        if (shown && *shown < names_.commands.size()) text += fmt::format("to replay it: {}\n", names_.commands[*shown]);
-        return text;
+            lines.push_back({"", fmt::format("the baseline {} {}{}", row(*baseline_),
+                                             keeps_all(rows_[*baseline_], asked_) ? "keeps it, too"
+                                                                                  : "misses " + missed(rows_[*baseline_], asked_),
+                                             note())});
+        if (shown && *shown < names_.commands.size()) lines.push_back({std::string(replay_head), names_.commands[*shown]});
+        return lines;
     }
 
 private:
     std::string row(std::size_t i) const { return fmt::format("{} ({})", names_.rows[i], metrics(rows_[i], names_)); }
     std::string note() const { return names_.baseline_note.empty() ? "" : "; " + names_.baseline_note; }
 
-    std::string recommendation() const {
+    std::vector<AnswerLine> recommendation() const {
         const std::size_t chosen = *answer_.recommended;
-        std::string text =
-            chosen == baseline_
-                ? fmt::format("keep the baseline {}{}{}\n", row(chosen),
-                              *rows_[chosen].error < exact_below ? ": exact, nothing that shows is out of order" : "", note())
-                : fmt::format("use {}\n", row(chosen));
-        for (std::size_t i = 0; i < std::min(answer_.as_fast.size(), most_named); ++i)
-            text += (i == 0 ? "as fast within the spread: " : ", ") + row(answer_.as_fast[i]);
-        if (answer_.as_fast.size() > most_named) text += fmt::format(" and {} more", answer_.as_fast.size() - most_named);
+        std::vector<AnswerLine> lines;
+        lines.push_back(
+            {"",
+             chosen == baseline_
+                 ? fmt::format("keep the baseline {}{}{}", row(chosen),
+                               *rows_[chosen].error < exact_below ? ": exact, nothing that shows is out of order" : "", note())
+                 : "use " + row(chosen)});
+        if (!answer_.as_fast.empty()) lines.push_back({"as fast within the spread", as_fast()});
         if (!answer_.unsteady.empty())
-            text += fmt::format("{}{} more may be: the spread of their times is above {:g} %",
-                                answer_.as_fast.empty() ? "" : "; ", answer_.unsteady.size(), 100 * largest_spread);
-        if (!answer_.as_fast.empty() || !answer_.unsteady.empty()) text += "\n";
-        if (answer_.most_accurate != chosen) text += fmt::format("most accurate: {}\n", row(*answer_.most_accurate));
+            lines.push_back({"", fmt::format("{} more may be as fast: the spread of their times is above {:g} %",
+                                             answer_.unsteady.size(), 100 * largest_spread)});
+        if (answer_.most_accurate != chosen) lines.push_back({"most accurate", row(*answer_.most_accurate)});
         if (answer_.cheaper) {
             const Standing& cheaper = rows_[*answer_.cheaper];
-            text += fmt::format("cheaper: {}{}\n", row(*answer_.cheaper),
-                                keeps_all(cheaper, asked_) ? "" : " misses " + missed(cheaper, asked_));
+            lines.push_back(
+                {"cheaper", row(*answer_.cheaper) + (keeps_all(cheaper, asked_) ? "" : " misses " + missed(cheaper, asked_))});
         }
+        return lines;
+    }
+
+    std::string as_fast() const {
+        std::string text;
+        for (std::size_t i = 0; i < std::min(answer_.as_fast.size(), most_named); ++i)
+            text += (i == 0 ? "" : ", ") + row(answer_.as_fast[i]);
+        if (answer_.as_fast.size() > most_named) text += fmt::format(" and {} more", answer_.as_fast.size() - most_named);
         return text;
     }
 
-    std::string nearest() const {
+    std::vector<AnswerLine> nearest() const {
         const std::string none = asked_.error && asked_.within ? "no technique keeps both" : "no technique keeps it";
-        if (!answer_.nearest) return none + "\n";
+        if (!answer_.nearest) return {{"", none}};
         const std::size_t near = *answer_.nearest;
-        return fmt::format("{}; the nearest, {}, misses {}\n", none, row(near), missed(rows_[near], asked_));
+        return {{"", fmt::format("{}; the nearest, {}, misses {}", none, row(near), missed(rows_[near], asked_))}};
     }
 
     std::span<const Standing> rows_;
@@ -144,10 +152,21 @@ Answer find_answer(std::span<const Standing> rows, std::optional<std::size_t> ba
     return answer;
 }
 
+std::vector<AnswerLine> answer_lines(std::span<const Standing> rows, std::optional<std::size_t> baseline, const Question& asked,
+                                     const AnswerNames& names) {
+    if (asked.within && names.unit.empty()) return {{"answer", "none; the baseline's time could not be measured"}};
+    return AnswerLines(rows, baseline, asked, names).lines();
+}
+
 std::string answer_text(std::span<const Standing> rows, std::optional<std::size_t> baseline, const Question& asked,
                         const AnswerNames& names) {
-    if (asked.within && names.unit.empty()) return "answer: none; the baseline's time could not be measured\n";
-    return AnswerLines(rows, baseline, asked, names).text();
+    return as_text(answer_lines(rows, baseline, asked, names));
+}
+
+std::string as_text(std::span<const AnswerLine> lines) {
+    std::string text;
+    for (const AnswerLine& line : lines) text += fmt::format("{}{}{}\n", line.head, line.head.empty() ? "" : ": ", line.text);
+    return text;
 }
 
 }  // namespace strata

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "replay/report/ranking.h"
@@ -38,6 +39,18 @@ struct AnswerNames {
     std::string baseline_note = {};          ///< what its time contains, or nothing
     std::vector<std::string> commands = {};  ///< by row: what replays it; or none
 };
+
+/// The head of the line with the command.
+inline constexpr std::string_view replay_head = "to replay it";
+
+/// "cheaper: a_buffer (...) misses both limits".
+struct AnswerLine {
+    std::string head, text;  ///< without a head: a sentence
+};
+std::vector<AnswerLine> answer_lines(std::span<const Standing>, std::optional<std::size_t> baseline, const Question&,
+                                     const AnswerNames&);
+/// Those lines below each other.
 std::string answer_text(std::span<const Standing>, std::optional<std::size_t> baseline, const Question&, const AnswerNames&);
+std::string as_text(std::span<const AnswerLine>);
 
 }  // namespace strata

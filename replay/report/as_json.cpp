@@ -5,6 +5,7 @@
 #include "passes/stages.h"
 #include "replay/json_text.h"
 #include "replay/report/report_columns.h"
+#include "replay/report/warnings.h"
 #include "replay/tables/document.h"
 
 namespace strata {
@@ -55,7 +56,7 @@ ordered_json json_of_best(const std::vector<Row>& rows, const std::vector<Standi
 }
 
 ordered_json json_of_answer(const Report& report) {
-    const Answer answer = find_answer(standings(report.rows), baseline_of(report), report.question);
+    const Answer answer = answer_of(report);
     const auto row = [&](std::optional<std::size_t> i) {
         return i ? ordered_json{{"technique", report.rows[*i].technique}, {"settings", report.rows[*i].settings}}
                  : ordered_json();
@@ -105,6 +106,8 @@ ordered_json json_of(const Report& report) {
             {"frames", report.flicker->frames}, {"dolly_meters", *report.flicker->dolly}, {"pan_degrees", report.flicker->pan}};
     if (!report.skipped.empty()) json["skipped"] = report.skipped;
     if (!report.stopped.empty()) json["stopped"] = report.stopped;
+    json["warnings"] = ordered_json::array();
+    for (const Warning& warning : warnings_of(report)) json["warnings"].push_back({{"id", warning.id}, {"text", warning.text}});
     json["rows"] = rows_of(report);
     if (!report.is_timed) return json;
     json["best_within"] = json_of_best(report.rows, standings(report.rows), report.time_unit);

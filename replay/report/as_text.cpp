@@ -7,6 +7,7 @@
 #include "replay/plural.h"
 #include "replay/report/report_columns.h"
 #include "replay/report/variants.h"
+#include "replay/report/warnings.h"
 #include "replay/session/choice_text.h"
 #include "replay/tables/table.h"
 
@@ -49,19 +50,8 @@ std::string best_rows(const std::vector<Row>& rows, const std::vector<Standing>&
 }
 
 std::string answer_text(const Report& report) {
-    if (!report.question.is_asked()) return "";
-    AnswerNames names{.rows = {}, .error = ranking_error(report), .unit = below_stage(report.time_unit)};
-    for (const Measurement& row : report.rows) {
-        names.rows.push_back(short_label(row));
-        const Request request = request_of(row, report.base);
-        names.commands.push_back(replay_command(report.capture_name, request.variant, request.choices));
-    }
-    const auto baseline = baseline_of(report);
-    if (baseline && report.rows[*baseline].sort_ms)
-        names.baseline_note = fmt::format("its time contains {} ms in which the CPU sorts {} and {}",
-                                          short_number(report.rows[*baseline].sort_ms->median),
-                                          plural(report.sorted_objects, "object"), plural(report.sorted_particles, "particle"));
-    return "\n" + answer_text(standings(report.rows), baseline_of(report), report.question, names);
+    const auto lines = answer_lines(report);
+    return lines.empty() ? "" : "\n" + as_text(lines);
 }
 
 std::string counters_text(const Measurement& row) {
@@ -165,6 +155,12 @@ std::string heading(const Report& report) {
     return text;
 }
 
+std::string warnings_text(const Report& report) {
+    std::string text;
+    for (const Warning& warning : warnings_of(report)) text += fmt::format("! {}\n", warning.text);
+    return text;
+}
+
 /// Rows of which the same is said are one line.
 std::string light_text(const Report& report) {
     std::map<std::string, std::vector<const Measurement*>> by_faults;
@@ -177,6 +173,28 @@ std::string light_text(const Report& report) {
 }
 
 }  // namespace
+
+std::vector<AnswerLine> answer_lines(const Report& report) {
+    if (!report.question.is_asked()) return {};
+    if (changes_too_little(report))
+        return {{"answer", fmt::format("none; the stage changes fewer than {} pixels of this view", fewest_pixels)}};
+    AnswerNames names{.rows = {}, .error = ranking_error(report), .unit = below_stage(report.time_unit)};
+    for (const Measurement& row : report.rows) {
+        names.rows.push_back(short_label(row));
+        names.commands.push_back(command_of(report, row));
+    }
+    const auto baseline = baseline_of(report);
+    if (baseline && report.rows[*baseline].sort_ms)
+        names.baseline_note = fmt::format("its time contains {} ms in which the CPU sorts {} and {}",
+                                          short_number(report.rows[*baseline].sort_ms->median),
+                                          plural(report.sorted_objects, "object"), plural(report.sorted_particles, "particle"));
+    return answer_lines(standings(report.rows), baseline, report.question, names);
+}
+
+std::string command_of(const Report& report, const Measurement& row) {
+    const Request request = request_of(row, report.base);
+    return replay_command(report.capture_name, request.variant, request.choices);
+}
 
 std::string light_faults(const Measurement& row) {
     std::string text;
@@ -200,7 +218,7 @@ Page page_of(const Report& report) {
     Page page{heading(report)};
     if (!report.skipped.empty()) return page;
     const std::string stopped = report.stopped.empty() ? "" : "\n" + report.stopped + "\n";
-    page.insert(page.end(), {"\n", sheet_of(report), "\n"});
+    page.insert(page.end(), {warnings_text(report) + "\n", sheet_of(report), "\n"});
     if (!report.is_timed) {
         page.emplace_back(implementation_text(report) + stopped);
         return page;

@@ -84,8 +84,7 @@ Result<void> add_alternatives(Session& session, const Request& request, Stage st
 }
 
 /// Smaller is better; shares in percent of the pixels that are compared.
-std::vector<Metric> metrics_of(const ReferenceImage& got, const ReferenceImage& wanted) {
-    const DisplayError error = display_error(got, wanted);
+std::vector<Metric> metrics_of(const DisplayError& error, const ReferenceImage& got, const ReferenceImage& wanted) {
     return {{display_rmse, "of white", error.rmse},
             {"relative rmse", "", difference(got, wanted).relative},
             {"worst", "of white", error.worst},
@@ -140,10 +139,14 @@ Result<void> judge_picture(Session& session, Request request, const PictureTruth
         accuracy.flip.reset();
         return {};
     }
-    accuracy.technique_errors = metrics_of(got, wanted);
+    accuracy.technique_errors = metrics_of(display_error(got, wanted), got, wanted);
     accuracy.flip = display_flip(color_planes(wanted), color_planes(got)).mean;
-    accuracy.touched = truth.touched_share > 0 ? metrics_of(got, touched) : std::vector<Metric>();
-    accuracy.touched_share = truth.touched_share > 0 ? truth.touched_share : 1;
+    accuracy.touched.clear(), accuracy.footing.reset(), accuracy.touched_share = 1;
+    if (truth.touched_share == 0) return {};
+    const DisplayError error = display_error(got, touched);
+    accuracy.touched = metrics_of(error, got, touched);
+    accuracy.footing = footing_of(error);
+    accuracy.touched_share = truth.touched_share;
     return {};
 }
 

@@ -13,8 +13,10 @@
 #include "passes/stages.h"
 #include "passes/technique.h"
 #include "replay/report/flicker.h"
+#include "replay/report/pictures.h"
 #include "replay/report/row_maker.h"
 #include "replay/report/variants.h"
+#include "replay/report/warnings.h"
 #include "replay/session/choice_text.h"
 
 namespace strata {
@@ -139,7 +141,11 @@ Request request_of(const Measurement& row, Request base) {
 
 bool is_unanswered(const Report& report) {
     if (!report.question.is_asked() || !report.skipped.empty() || !report.stopped.empty()) return false;
-    return !find_answer(standings(report.rows), baseline_of(report), report.question).recommended;
+    return !answer_of(report).recommended;
+}
+
+Answer answer_of(const Report& report) {
+    return changes_too_little(report) ? Answer() : find_answer(standings(report.rows), baseline_of(report), report.question);
 }
 
 void mark_fronts(std::vector<Measurement>& rows) {
@@ -213,6 +219,10 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
         const auto again =
             maker.time_again([&](std::string_view what, double done) { tell(what, 1 - shares.again * (1 - done)); });
         if (!again) return again.error();
+    }
+    if (wanted.wants_pictures) {
+        tell("pictures", 1);
+        if (const auto added = add_pictures(session, wanted, *all, *row_truths, report); !added) return added.error();
     }
     if (report.is_timed) mark_fronts(report.rows);
     std::ranges::stable_sort(report.rows, {}, [](const Measurement& row) {

@@ -55,8 +55,16 @@ struct ReportRequest {
     /// place is uncertain (enough_repeats.h).
     std::size_t least_repeats = 0;
     std::optional<Walk> flicker;
+    bool wants_pictures = false;  ///< Report::truth_picture and Measurement::picture
     /// Told of each row as soon as its errors and times are known: the row, its place from 1 on, and of how many.
     std::function<void(const Measurement&, std::size_t, std::size_t)> on_row = {};
+};
+
+/// What a display shows of a row.
+struct RowPicture {
+    std::vector<std::byte> png;              ///< RGBA; what shows as the truth does is transparent
+    std::uint32_t worst_x = 0, worst_y = 0;  ///< the pixel that is furthest from the truth's
+    double worst = 0;                        ///< by how much, of white: root mean square over its colors
 };
 
 /// One row.
@@ -82,6 +90,7 @@ struct Measurement {
     bool on_front = false;                   ///< nothing is both more accurate and faster
     bool is_tied = false;                    ///< the spreads alone keep it off the front: see ties_in_time()
     bool on_memory_front = false;            ///< nothing is both more accurate and smaller
+    std::optional<RowPicture> picture;       ///< ReportRequest::wants_pictures
 };
 
 /// What rows are measured against.
@@ -106,10 +115,11 @@ struct Report {
     std::string time_unit;        ///< the technique whose time is 1; empty: none could be measured
     std::optional<Walk> flicker;  ///< with its dolly
     Question question;
-    std::vector<Measurement> rows;  ///< most accurate first, then those with another truth, then what is not supported
-    std::string skipped;            ///< why the frame does not need the stage; then there are no rows
-    std::string stopped;            ///< what is missing because a stop was asked for: "stopped after 16 of 97 rows"
-    bool is_timed = true;           ///< false: stopped before any time was measured
+    std::vector<Measurement> rows;         ///< most accurate first, then those with another truth, then what is not supported
+    std::string skipped;                   ///< why the frame does not need the stage; then there are no rows
+    std::string stopped;                   ///< what is missing because a stop was asked for: "stopped after 16 of 97 rows"
+    bool is_timed = true;                  ///< false: stopped before any time was measured
+    std::vector<std::byte> truth_picture;  ///< PNG; empty: none was asked for
     std::size_t sorted_objects = 0, sorted_particles = 0;  ///< of the frame, by techniques with Abilities::sorts_objects
 };
 
@@ -132,7 +142,15 @@ std::optional<std::size_t> baseline_of(const Report&);
 /// The request of a row of a report that started from a base.
 Request request_of(const Measurement&, Request base);
 
-/// Whether limits were asked for that no row keeps.
+/// To its question; empty where the stage changes too few pixels.
+Answer answer_of(const Report&);
+
+/// The answer in words; none where nothing was asked.
+std::vector<AnswerLine> answer_lines(const Report&);
+/// What replays a row.
+std::string command_of(const Report&, const Measurement&);
+
+/// Whether limits were asked for that no row keeps, or of too little of a picture.
 bool is_unanswered(const Report&);
 
 /// The figures of the stage's judge, and FLIP's mean behind them where there is one.

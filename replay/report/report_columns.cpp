@@ -95,6 +95,14 @@ ColumnsOfRows errors(const Report& report) {
           .kind = CellKind::share,
           .shown = in_files},
          [](const Row& row) { return row.accuracy.touched.empty() ? CellValue() : CellValue(row.accuracy.touched_share); }});
+    columns.push_back(
+        {{.key = "concentration",
+          .title = "concentration",
+          .help = "share of the squared display error that lies in the worst thousandth of the pixels that the "
+                  "stage changes",
+          .kind = CellKind::share,
+          .shown = in_files},
+         [](const Row& row) { return row.accuracy.footing ? CellValue(row.accuracy.footing->concentration) : CellValue(); }});
     columns.push_back({{.key = "undecided_share",
                         .title = "undecided",
                         .help = "share of samples whose truth depends on rounding; their error is the distance to the nearest "

@@ -153,11 +153,29 @@ DisplayLight display_light(const Radiance& radiance, const Frame& frame) {
 }
 
 /// Adds errors of display light behind the figures of a judge that has none.
-void add_display_errors(const DisplayLight& light, const std::vector<bool>& changed, std::vector<Metric>& metrics) {
+void add_display_errors(const DisplayError& error, std::vector<Metric>& metrics) {
     if (std::ranges::count(metrics, display_rmse, &Metric::name) > 0) return;
-    const DisplayError error = display_error(light.got, light.wanted, changed);
     metrics.push_back({display_rmse, "of white", error.rmse, true});
     metrics.push_back({"over 5/255", "%", 100 * error.over_5_255, true});
+}
+
+/// `touched`: radiance, of which what the stage leaves as it finds it is undecided.
+Footing footing_of(const DisplayError& error, const ReferenceImage& touched) {
+    Footing footing = strata::footing_of(error);
+    double all = 0, brightest = 0;
+    for (std::size_t i = 0; i < touched.texels.size(); ++i) {
+        if (is_undecided(touched, i)) continue;
+        const glm::dvec3 light(touched.texels[i]);
+        const double energy = glm::dot(light, light);
+        if (!std::isfinite(energy)) continue;
+        all += energy;
+        if (energy <= brightest) continue;
+        brightest = energy;
+        const std::size_t pixel = i % (std::size_t(touched.width) * touched.height);
+        footing.x = std::uint32_t(pixel % touched.width), footing.y = std::uint32_t(pixel / touched.width);
+    }
+    footing.brightest_share = all > 0 ? brightest / all : 0;
+    return footing;
 }
 
 /// Tells for each pixel whether a decided sample is left after keep_touched().
@@ -212,8 +230,7 @@ double undecided_share(const ImageSet& truth, std::string_view image) {
 std::vector<Metric> infinite_metrics(const StageInfo& of_stage, const ImageSet& truth, const StageInput& input) {
     if (!truth.contains(of_stage.outputs.front())) return {{"error", "", HUGE_VAL}};
     std::vector<Metric> metrics = of_stage.judge(truth, truth, input);
-    if (const auto radiance = radiance_of(of_stage, truth, truth))
-        add_display_errors(display_light(*radiance, input.frame), {}, metrics);
+    if (const auto radiance = radiance_of(of_stage, truth, truth)) add_display_errors({}, metrics);
     for (Metric& metric : metrics) metric.value = HUGE_VAL;
     return metrics;
 }
@@ -252,16 +269,22 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
     const auto radiance = radiance_of(of_stage, stage.result, truth);
     if (!radiance) return;
     const DisplayLight light = display_light(*radiance, stage.frame);  // before samples that the stage leaves are left out
-    add_display_errors(light, {}, accuracy.technique_errors);
+    add_display_errors(display_error(light.got, light.wanted), accuracy.technique_errors);
     accuracy.flip = radiance_flip(color_planes(radiance->wanted), color_planes(radiance->got)).mean;
     if (const auto share = keep_touched(of_stage, stage.before, truth)) {
         accuracy.touched_share = *share;
         accuracy.touched = of_stage.judge(stage.result, truth, input);
-        add_display_errors(light, changed_pixels(radiance->wanted), accuracy.touched);
+        const DisplayError error = display_error(light.got, light.wanted, changed_pixels(radiance->wanted));
+        add_display_errors(error, accuracy.touched);
+        accuracy.footing = footing_of(error, radiance->wanted);
     }
 }
 
 }  // namespace
+
+Footing footing_of(const DisplayError& error) {
+    return {.pixels = error.pixels, .clipped_share = error.clipped_share, .concentration = error.concentration};
+}
 
 std::optional<double> keep_touched(ReferenceImage& image, const ReferenceImage* before) {
     image.undecided.resize(image.texels.size());

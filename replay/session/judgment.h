@@ -12,6 +12,8 @@
 
 namespace strata {
 
+struct DisplayError;
+
 struct JudgedStage {
     const Frame& frame;
     const Features& features;
@@ -35,6 +37,9 @@ void leave_out_sides(const Frame&, std::uint32_t device_snap_steps, ImageSet&);
 /// Leaves out the texels whose color is that of an image of the same extent before (black, if null). The share of all texels
 /// that differ, undecided ones among them; nothing where no decided one does.
 std::optional<double> keep_touched(ReferenceImage&, const ReferenceImage* before);
+
+/// What display light says of it; no energy.
+Footing footing_of(const DisplayError&);
 
 /// Multiplies what is radiance: metrics and the worst texel.
 void scale_light(Accuracy&, double factor);

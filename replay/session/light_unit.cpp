@@ -6,6 +6,7 @@
 #include "passes/frame_images.h"
 #include "passes/registry.h"
 #include "passes/technique.h"
+#include "replay/session/session.h"
 
 namespace strata {
 
@@ -30,6 +31,13 @@ HostImage scaled_light(std::string_view name, HostImage image, double factor) {
     image.texels.resize(texels.size() * sizeof(glm::vec4));
     std::memcpy(image.texels.data(), texels.data(), image.texels.size());
     return image;
+}
+
+void scale_light(NumberTable& table, double factor) {
+    if (factor == 1) return;
+    for (std::size_t column = 0; column < table.columns.size(); ++column)
+        if (table.columns[column].unit == "W")
+            for (std::vector<double>& row : table.rows) row[column] *= factor;
 }
 
 void scale_light(ImageSet& images, double factor) {

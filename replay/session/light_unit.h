@@ -9,11 +9,15 @@
 
 namespace strata {
 
+struct NumberTable;  // replay/session/session.h
+
 /// Whether the image of a frame, or the debug view "stage/technique:view", holds radiance.
 bool holds_radiance(std::string_view name);
 
 /// The image with its colors times the factor, as floats, if it holds radiance; else the image itself.
 HostImage scaled_light(std::string_view name, HostImage, double factor);
+/// The columns of a table that are in watts.
+void scale_light(NumberTable&, double factor);
 /// The same of images in double, with their standard errors.
 void scale_light(ImageSet&, double factor);
 /// The images themselves where the factor is 1, else a scaled copy of them in `room`.

@@ -269,6 +269,7 @@ Run DeviceSession::finished(const Declaration& d, const Execution& execution, st
     run.images = images_of(d, execution);
     for (auto& [name, image] : run.images) image = as_recorded(name, std::move(image));
     run.tables = tables_of(d, execution);
+    for (auto& [name, table] : run.tables) scale_light(table, 1 / pre_exposure());
     run.notes = loaded_->notes;
     run.not_supported = not_supported(d, loaded_->features);
     for (const UnsupportedChoice& choice : run.not_supported)

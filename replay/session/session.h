@@ -144,12 +144,22 @@ struct WorstTexel {
     glm::dvec4 got{0}, wanted{0};
 };
 
+/// What a row's errors rest on: little of a picture, or one sample of a frame, decides nothing about others.
+struct Footing {
+    std::size_t pixels = 0;      ///< that the stage changes and that are compared
+    double clipped_share = 0;    ///< DisplayError::clipped_share
+    double concentration = 0;    ///< DisplayError::concentration
+    double brightest_share = 0;  ///< of the truth's energy over the samples that the stage changes: the brightest one's
+    std::uint32_t x = 0, y = 0;  ///< of that sample
+};
+
 /// How a technique fared on a frame against its model (implementation error) and the stage's truth (technique error).
 struct Accuracy {
     std::vector<Metric> technique_errors;  ///< from the stage's judge
     std::optional<double> flip;            ///< mean of FLIP against the truth, of a stage that makes radiance
     std::vector<Metric> touched;           ///< the same over the samples that the truth changes, of a stage that makes radiance
     double touched_share = 1;              ///< of all samples
+    std::optional<Footing> footing;        ///< of errors over what is touched
     std::size_t not_numbers = 0;           ///< texels that are NaN in the result and in the truth: left out of these errors
     double undecided_share = 0;  ///< of samples: rounding decides their truth, their error is the distance to all it allows
     std::optional<Metric> undecided_bound;   ///< by how much the stage's error, so named, may be too small for it

@@ -197,6 +197,15 @@ TEST(ImportGltf, StrongLightsLowerTheExposure) {
     EXPECT_NEAR(strong.frame.view.exposure, 1.7 / (400 / 4 / 3.14159265), 1e-6);
     EXPECT_THAT(strong.warnings, Contains(HasSubstr("0.0534")));
     EXPECT_GT(scene(3e38).frame.view.exposure, 0) << "a float holds this light";
+    EXPECT_NEAR(scene(1e-6).frame.view.exposure * 1e-6 / 4 / 3.14159265, 1.7, 1e-5) << "a dark one raises it";
+    EXPECT_EQ(imported(lit_by(400), {.exposure = .25f}).frame.view.exposure, .25f);
+    EXPECT_THAT(import_text(lit_by(8), {.exposure = 0}), FailsWith("import.gltf.exposure_range", Field("exposure", 0)));
+}
+
+TEST(ImportGltf, ALightWithoutARangeReachesBeyondTheSceneInEveryUnitOfLight) {
+    // It is 2 m away and lights nothing else: at 32 m, 16 times as far, 1/256 of its light there is left.
+    for (const double candela : {1e-6, 1e-3, 1., 8., 1e5, 1e12})
+        EXPECT_NEAR(imported(lit_by(candela)).frame.lights.at(0).range, 32, 1e-3) << candela;
 }
 
 TEST(ImportGltf, ALightThatAFloatCannotHoldIsRefusedByItsName) {
@@ -223,7 +232,8 @@ TEST(ImportGltf, PunctualLightsKeepColorIntensityAndCone) {
     ASSERT_EQ(frame.lights.size(), 2u);
     EXPECT_EQ(frame.lights[0].intensity, glm::vec3(8, 4, 0));
     EXPECT_EQ(frame.lights[0].position, glm::dvec3(1, 2, 3));
-    EXPECT_NEAR(frame.lights[0].range, std::sqrt(8 * 256), 1e-3);
+    // 1/256 of a white surface's light: of the sun, of the lamp's at sqrt(11.5) m and of the spot's at sqrt(.5) m.
+    EXPECT_NEAR(frame.lights[0].range, std::sqrt(8 * 256 / (3 + 8 / 11.5 + 2 / .5)), 1e-3);
     EXPECT_EQ(frame.lights[1].type, LightType::round_spot);
     EXPECT_EQ(frame.lights[1].direction, glm::vec3(0, 0, -1));
     EXPECT_EQ(frame.lights[1].range, 3);

@@ -27,6 +27,9 @@ namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN(), endless = std::numeric_limits<double>::infinity();
 
+/// The light that sRGB encodes as a share of white above .04 (IEC 61966-2-1).
+double srgb_light(double encoded) { return std::pow((encoded + .055) / 1.055, 2.4); }
+
 using Metrics = std::map<std::string, double>;
 
 Metrics by_name(const std::vector<Metric>& metrics) {
@@ -85,6 +88,21 @@ TEST(display_error, is_of_what_a_pixel_shows) {
     got.undecided = {true, true, true, true};
     EXPECT_EQ(display_error(got, wanted).pixels, 0u);
     EXPECT_EQ(display_error(got, wanted).rmse, 0);
+}
+
+TEST(display_error, knows_what_clips_and_how_few_pixels_it_is_in) {
+    // 3,000 pixels: 750 white, 750 black, 1,500 gray. Three, a thousandth, are off by 4/255 and 1,500 by 1/255.
+    ReferenceImage wanted(100, 30, 1, glm::dvec4(srgb_light(.5)));
+    for (std::size_t i = 0; i < 1500; ++i) wanted.texels[i] = glm::dvec4(i < 750 ? 2. : -1.);
+    EXPECT_EQ(display_error(wanted, wanted).clipped_share, .5);
+    EXPECT_EQ(display_error(wanted, wanted).concentration, 0);
+    ReferenceImage got = wanted;
+    for (std::size_t i = 1500; i < 3000; ++i) got.texels[i] = glm::dvec4(srgb_light(.5 + 1 / 255.));
+    EXPECT_NEAR(display_error(got, wanted).concentration, 3 / 1500., 1e-12);
+    for (std::size_t i = 1500; i < 1503; ++i) got.texels[i] = glm::dvec4(srgb_light(.5 - 40 / 255.));
+    EXPECT_NEAR(display_error(got, wanted).concentration, 4800 / (4800. + 1497), 1e-12);
+    wanted.texels[1500].x = 1;  // one color alone
+    EXPECT_EQ(display_error(wanted, wanted).clipped_share, .5);
 }
 
 TEST(display_error, is_not_decided_by_one_bright_sample) {

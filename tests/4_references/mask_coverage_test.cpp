@@ -144,6 +144,21 @@ TEST(MaskCoverage, JudgesTheModeThatKeepsTheQuarterAboveThoseThatLoseIt) {
     }
 }
 
+// The float nearest to 128/255 is above the double nearest to it: a card of that alpha and that cutoff is there.
+TEST(MaskCoverage, OfAnAlphaThatIsTheCutoffIsWhole) {
+    for (const int alpha : {128, 51, 129, 77}) {
+        Frame frame = quarter_card(1);
+        frame.textures[0].texels.clear();
+        for (int texel = 0; texel < 7; ++texel)
+            for (const int channel : {255, 255, 255, alpha}) frame.textures[0].texels.push_back(std::byte(channel));
+        frame.materials[0].mask_cutoff = float(alpha) / 255;
+        const ReferenceImage depth = truth_of(frame).at("depth_layers");
+        double area = 0;
+        for (const glm::dvec4& texel : depth.texels) area += texel.y;
+        EXPECT_EQ(area, 1024) << alpha;
+    }
+}
+
 // Its alpha is everywhere below the cutoff: nothing is covered, and two of four samples are in bands.
 TEST(MaskCoverage, HasAFloorWhereNothingIsCovered) {
     Frame frame = quarter_card(1, 4);

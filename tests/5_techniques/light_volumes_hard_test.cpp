@@ -136,8 +136,10 @@ TEST_P(HardLightVolumes, AreWhatTheModelSays) {
 INSTANTIATE_TEST_SUITE_P(Cases, HardLightVolumes, testing::Range<std::size_t>(0, hard_volumes().size()),
                          [](const auto& index) { return hard_volumes()[index.param].name; });
 
+/// The volume's center is beside that of the room, below which the lamp hangs: with cells of 10 cm a virtual point light would
+/// lie within a rounding of a border, and it is 17 % of the light of one pixel.
 TEST(ExhaustiveHardLightVolumes, OfSixtyFourCellsEachWayAreWhatTheModelSays) {
-    const auto session = must(Session::open({box_in({fixed_volume({2.78, 2.74, 2.8}, 3.2f, 64)})}, {.validation = true}));
+    const auto session = must(Session::open({box_in({fixed_volume({2.787, 2.745, 2.791}, 3.2f, 64)})}, {.validation = true}));
     const Request request = indirect_of(0);
     const Accuracy accuracy = must(session->judge(request, Stage::indirect, Against::model));
     expect_within_tolerance(accuracy, *must(find_technique("indirect/lpv")), request, "64 cells each way");

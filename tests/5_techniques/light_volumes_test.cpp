@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "passes/frame_images.h"
@@ -209,6 +210,8 @@ TEST(LightVolumes, ThatAreForcedIntoAFrameWithoutAnyAreWhatTheirModelSays) {
     const Accuracy accuracy = must(session_of_scenarios().judge(request, Stage::indirect, Against::model));
     EXPECT_GT(accuracy.compared, 0u);
     EXPECT_EQ(accuracy.model_worst, 0);
+    EXPECT_THAT(must(session_of_scenarios().run(request)).notes,
+                testing::Contains(testing::HasSubstr("no light volume: no light is indirect")));
 }
 
 }  // namespace

@@ -172,6 +172,51 @@ TEST(UnitOfLight, ExhaustiveOfStorageIsNotThatOfImages) {
     }
 }
 
+double brightest_color(Session& session, std::size_t frame, const char* technique) {
+    const auto run = session.run({.variant = {.frame = frame}, .choices = chosen({technique}), .outputs = {"color"}});
+    double most = 0;
+    for (const glm::dvec4& texel : in_double(must(run).images.at("color")).texels) most = std::max(most, texel.x);
+    return most;
+}
+
+/// What a lamp lights is stored as well whatever its range is: it lights the scene, not what lies at a quarter of the range.
+TEST(UnitOfLight, OfALampIsThatOfWhatItLights) {
+    std::vector<Frame> frames;
+    for (const float range : {100.f, 1e3f, 1e5f, 1e6f}) {
+        frames.push_back(of_scenario("three_cards"));
+        Frame& frame = frames.back();
+        frame.view.exposure = 1e-5f;
+        for (Material& material : frame.materials) material.lighting_model = LightingModel::lambert;
+        frame.fog = {}, frame.hemisphere = {}, frame.sun = {}, frame.background = glm::vec3(0);
+        frame.lights = {{.position = frame.view.origin, .intensity = glm::vec3(3e6f), .range = range}};
+    }
+    const auto session = session_of(frames);
+    for (const char* technique : {"transparency/sorted_lists", "transparency/moments", "transparency/exact_function"}) {
+        const double near = brightest_color(*session, 0, technique);
+        EXPECT_GT(near, 1e3) << "a storage by the range would end at 1300 of it; the comparison proves nothing";
+        for (std::size_t i = 1; i < frames.size(); ++i)
+            EXPECT_NEAR(brightest_color(*session, i, technique) / near, 1, 2e-3)
+                << technique << ", a range of " << frames[i].lights[0].range;
+    }
+}
+
+/// Cards that shine a million times as bright as what is white are cut off, and counted.
+TEST(UnitOfLight, FragmentsThatAreCutOffAreCounted) {
+    std::vector<Frame> frames(2, of_scenario("three_cards"));
+    for (Material& material : frames[1].materials) material.emissive = glm::vec3(1e6f);
+    const auto session = session_of(frames);
+    for (const char* technique : {"transparency/exact_function", "transparency/adaptive", "transparency/moments",
+                                  "transparency/wavelet", "transparency/voxel"})
+        for (const std::size_t frame : {0u, 1u}) {
+            const auto run = must(session->run({.variant = {.frame = frame}, .choices = chosen({technique})}));
+            const auto count = [&](std::string_view name) {
+                return std::ranges::find(run.counters, name, &CounterRecord::name)->value;
+            };
+            EXPECT_GT(count("drawn"), 100) << technique;
+            EXPECT_EQ(count("clamped"), frame == 0 ? 0 : count("drawn")) << technique;
+        }
+}
+
 /// A card of alpha .5 in three suns, of a lamp's unit and of lux, by a recorded exposure and without one. No lights but the sun,
 /// no sky: radiance is in proportion.
 TEST(UnitOfLight, OfASunInLuxIsNoLimit) {
@@ -190,17 +235,11 @@ TEST(UnitOfLight, OfASunInLuxIsNoLimit) {
                          .irradiance = glm::vec3(lux)};
         }
     const auto session = session_of(frames);
-    const auto brightest = [&](std::size_t frame, const char* technique) {
-        const auto run = session->run({.variant = {.frame = frame}, .choices = chosen({technique}), .outputs = {"color"}});
-        double most = 0;
-        for (const glm::dvec4& texel : in_double(must(run).images.at("color")).texels) most = std::max(most, texel.x);
-        return most;
-    };
     for (const char* technique : {"transparency/sorted_lists", "transparency/moments", "transparency/exact_function"}) {
-        const double in_unit_of_lamp = brightest(0, technique) / 3;
+        const double in_unit_of_lamp = brightest_color(*session, 0, technique) / 3;
         EXPECT_GT(in_unit_of_lamp, .02) << "the sun does not show; the comparison proves nothing";
         for (std::size_t i = 1; i < frames.size(); ++i)
-            EXPECT_NEAR(brightest(i, technique) / double(frames[i].sun.irradiance.x) / in_unit_of_lamp, 1, 2e-3)
+            EXPECT_NEAR(brightest_color(*session, i, technique) / double(frames[i].sun.irradiance.x) / in_unit_of_lamp, 1, 2e-3)
                 << technique << ", " << frames[i].sun.irradiance.x << " lux, exposure " << frames[i].view.exposure;
     }
 }

@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "passes/metric.h"
 #include "replay/report/report_columns.h"
+#include "replay/report/warnings.h"
 #include "replay/tables/document.h"
 #include "replay/tables/sheet.h"
 #include "replay/tables/table.h"
@@ -195,6 +197,70 @@ TEST(ReportSheet, OfOneRowThatIsNotSupportedHasItsReasonInEveryFormat) {
     const auto row = nlohmann::json::parse(as_json(report))["rows"][0];
     EXPECT_EQ(row["not_supported"], "glass is colored");
     EXPECT_EQ(row.size(), 3u) << row;
+}
+
+/// A row whose errors over what the stage touches are these, of white and of radiance.
+Measurement judged_row(std::string technique, double display, double relative, const Footing& footing) {
+    Measurement row{.technique = "transparency/" + std::move(technique)};
+    row.accuracy.technique_errors = row.accuracy.touched = {{"relative rmse", "", relative}, {display_rmse, "of white", display}};
+    row.accuracy.footing = footing;
+    return row;
+}
+
+std::vector<std::string> ids_of(const std::vector<Warning>& warnings) {
+    std::vector<std::string> ids;
+    ids.reserve(warnings.size());
+    for (const Warning& warning : warnings) ids.push_back(warning.id);
+    return ids;
+}
+
+TEST(Warnings, SayWhatErrorsRestOn) {
+    const auto of = [](const Footing& footing) { return Report{.rows = {judged_row("weighted", .02, .1, footing)}}; };
+    EXPECT_THAT(ids_of(warnings_of(of({.pixels = 1000, .clipped_share = .25, .concentration = .5, .brightest_share = .25}))),
+                ElementsAre());
+    EXPECT_THAT(ids_of(warnings_of(of({.pixels = 999}))), ElementsAre("few_pixels"));
+    const Report rests =
+        of({.pixels = 99, .clipped_share = .26, .concentration = .51, .brightest_share = .978, .x = 312, .y = 88});
+    const auto warnings = warnings_of(rests);
+    EXPECT_THAT(ids_of(warnings), ElementsAre("few_pixels", "one_sample", "clipped", "concentrated"));
+    EXPECT_THAT(warnings[0].text, HasSubstr("99 pixels: too few"));
+    EXPECT_THAT(warnings[1].text, HasSubstr("(312, 88) has 97.8 %"));
+    EXPECT_THAT(warnings[3].text, HasSubstr(": weighted"));
+    EXPECT_THAT(as_text(rests), HasSubstr("! relative rmse rests on one sample"));
+    EXPECT_EQ(nlohmann::json::parse(as_json(rests))["warnings"].size(), 4u);
+    EXPECT_THAT(warnings_of({.rows = {judged_row("weighted", 1e-5, .1, {.pixels = 5000, .concentration = .9})}}), ElementsAre())
+        << "what rounding leaves lies somewhere";
+}
+
+TEST(Warnings, NameTheRowThatTwoMetricsPlaceFurthestApart) {
+    const Footing footing{.pixels = 5000};
+    Report report{.rows = {judged_row("weighted", .01, .4, footing), judged_row("k_buffer", .02, .1, footing),
+                           judged_row("moments", .03, .2, footing), judged_row("wavelet", .04, .3, footing)}};
+    // Of six pairs three are ordered alike: tau = 0.
+    const auto warnings = warnings_of(report);
+    ASSERT_THAT(ids_of(warnings), ElementsAre("metrics_disagree"));
+    EXPECT_THAT(warnings[0].text, HasSubstr("(rank agreement 0.00): weighted is number 1 of 4 by the one and number 4"));
+    report.rows[0].has_other_truth = true;
+    EXPECT_THAT(warnings_of(report), ElementsAre());
+}
+
+TEST(Warnings, AgreementOfRanksIsKendallsTauB) {
+    EXPECT_EQ(rank_agreement({1, 2, 3}, {4, 5, 6}), 1);
+    EXPECT_EQ(rank_agreement({1, 2, 3}, {6, 5, 4}), -1);
+    // By scipy.stats.kendalltau([12, 2, 1, 12, 2], [1, 4, 7, 1, 0]), which has ties in both.
+    EXPECT_NEAR(*rank_agreement({12, 2, 1, 12, 2}, {1, 4, 7, 1, 0}), -.47140452079103173, 1e-15);
+    EXPECT_FALSE(rank_agreement({1, 1, 1}, {1, 2, 3}));
+    EXPECT_FALSE(rank_agreement({1}, {2}));
+}
+
+TEST(Warnings, FewerThanAHundredPixelsHaveNoAnswer) {
+    Report report{.question = {.error = .05}, .rows = {judged_row("weighted", .02, .1, {.pixels = 99})}};
+    EXPECT_TRUE(is_unanswered(report));
+    EXPECT_THAT(as_text(report), HasSubstr("answer: none; the stage changes fewer than 100 pixels"));
+    EXPECT_TRUE(nlohmann::json::parse(as_json(report))["answer"]["recommended"].is_null());
+    report.rows[0].accuracy.footing->pixels = 100;
+    EXPECT_FALSE(is_unanswered(report));
+    EXPECT_EQ(nlohmann::json::parse(as_json(report))["answer"]["recommended"]["technique"], "transparency/weighted");
 }
 
 }  // namespace

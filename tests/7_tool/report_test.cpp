@@ -161,8 +161,8 @@ TEST(Answers, SayWhereASpreadIsTooLargeToTellRowsApart) {
     EXPECT_EQ(answer.unsteady, std::vector<std::size_t>{2});
     EXPECT_THAT(
         answer_text(rows, {}, {.error = .02}, {{"a", "b", "c"}, {"rmse"}, "a"}),
-        HasSubstr("as fast within the spread: b (rmse 0.01, 1.10x, 0 bytes per pixel); 1 more may be: the spread of their "
-                  "times is above 25 %\n"));
+        HasSubstr("as fast within the spread: b (rmse 0.01, 1.10x, 0 bytes per pixel)\n1 more may be as fast: the spread of "
+                  "their times is above 25 %\n"));
 }
 
 TEST(Answers, AreSentences) {

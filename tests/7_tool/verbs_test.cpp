@@ -389,13 +389,18 @@ TEST(Report, AnswersWhichTechniqueKeepsAnErrorAndATime) {
     EXPECT_THAT(strata(verb).out, HasSubstr(" up to 1 % within 1000x of alpha_blend: keep the baseline alpha_blend"));
     const Finished defaults = strata("report panes.strata --repeats 1 --defaults --csv");
     EXPECT_EQ(std::size_t(std::ranges::count(defaults.out, '\n')), 1 + techniques_of(Stage::transparency).size());
-    for (const char* wrong : {"--techniques nothing", "--techniques 'weighted weight=w0'", "--techniques lighting/tiled",
-                              "--error nan", "--error 0", "--error 2", "--techniques 'weighted weight=w7 weight=w8'",
-                              "--within -2x", "--within 2y", "--defaults --techniques weighted"})
+    for (const char* wrong :
+         {"--techniques nothing", "--techniques 'weighted weight=w0'", "--techniques lighting/tiled", "--error nan", "--error 0",
+          "--error 2", "--error relative:", "--techniques 'weighted weight=w7 weight=w8'", "--within -2x", "--within 2y",
+          "--defaults --techniques weighted"})
         EXPECT_EQ(strata(std::string("report panes.strata ") + wrong).code, 2) << wrong;
     const Finished open = strata("-v report panes.strata --repeats 1 --techniques weighted --error 1e-9% --within 1000x");
     EXPECT_THAT(open, Refuses(1, "report.no_answer", "capture=panes.strata"));
     EXPECT_THAT(open.out, HasSubstr("no technique keeps both; the nearest, "));
+    const json of_radiance =
+        json::parse(strata("report panes.strata --repeats 1 --techniques weighted --error relative:90% --json").out);
+    EXPECT_EQ(of_radiance["ranked_by"], "relative rmse touched");
+    EXPECT_EQ(of_radiance["answer"]["error"], .9);
 }
 
 TEST(Report, FlickerIsNothingForWhatIsExactWhereverTheEyeGoes) {

@@ -40,6 +40,9 @@ constexpr std::array excepted = {
     Exception{"centre", "tests/", "faces=centre: settings are recorded in captures by name"},
     Exception{"event", "ui/", "what a window hears of mouse and keys"},
     Exception{"event", "tests/7_inspector", "what a window hears of mouse and keys"},
+    Exception{"event", "tests/7_tool/browser", "names of a browser's protocol"},
+    Exception{"method", "tests/7_tool/browser", "names of a browser's protocol"},
+    Exception{"event", "tests/7_tool/page_test", "what a page hears of mouse and keys"},
     Exception{"event", "tests/support/", "googletest's TestEventListener"},
     Exception{"", "tests/8_rules/terms_test.cpp", "this list"},
 };

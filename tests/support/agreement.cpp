@@ -33,9 +33,9 @@ void expect_within_tolerance(const Accuracy& accuracy, const Technique& techniqu
     testing::Test::RecordProperty(judged, fmt::format("rmse {:.3g} worst {:.3g} of {} - {} texels", accuracy.model_rmse,
                                                       accuracy.model_worst, accuracy.compared, accuracy.trivial));
     const WorstTexel& w = accuracy.worst;
-    const std::string where =
-        fmt::format("{}: worst at ({}, {}) layer {} of {}: got {:.9g} {:.9g} {:.9g}, the model says {:.9g} {:.9g} {:.9g}", judged,
-                    w.x, w.y, w.layer, w.image, w.got.x, w.got.y, w.got.z, w.wanted.x, w.wanted.y, w.wanted.z);
+    const std::string where = fmt::format(
+        "{}: worst at ({}, {}) layer {} of {}: got {:.9g} {:.9g} {:.9g} {:.9g}, the model says {:.9g} {:.9g} {:.9g} {:.9g}",
+        judged, w.x, w.y, w.layer, w.image, w.got.x, w.got.y, w.got.z, w.got.w, w.wanted.x, w.wanted.y, w.wanted.z, w.wanted.w);
     const Tolerance tolerance = tolerance_at(technique.tolerance, sets, scenario);
     EXPECT_LE(accuracy.model_rmse, tolerance.rmse) << where;
     EXPECT_LE(accuracy.model_worst, tolerance.worst) << where;

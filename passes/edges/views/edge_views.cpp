@@ -39,7 +39,8 @@ std::vector<DebugView> edge_views() {
              .high = most_surfaces,
              .declare = picture<shows_surfaces>},
             {.name = "outcome",
-             .help = "marked pixels compared with the stage's truth",
+             .help = "marked pixels compared with the words of their samples; a step of depth alone, which depth_rebuilt and "
+                     "compact keep in no word, shows as no edge here and is one in reports",
              .unit = "",
              .declare = picture<shows_outcome>,
              .colors = {{{0, 0.1f, 0.3f}, "plain: shaded once"},

@@ -120,7 +120,7 @@ private:
             Place& place = places[point.x];
             if (depth <= place.solid) return;
             const double alpha = alpha_at(frame_, point.draw, point.triangle, barycentric);
-            place.is_covered = place.is_covered || alpha >= double(material_of(frame_, point.draw)->mask_cutoff);
+            place.is_covered = place.is_covered || reaches_cutoff(alpha, *material_of(frame_, point.draw));
             place.passes *= 1 - std::clamp(alpha, 0.0, 1.0);
         });
         return places;

@@ -92,6 +92,7 @@ std::vector<std::string> notes(const FrameImages& frame, const Settings& setting
     const auto params = settings.as<LpvParams>();
     const std::vector<LightGrid> grids = light_grids(*frame.recorded, cell_scale(params));
     std::vector<std::string> all = notes_on_tight_volumes(*frame.facts, grids);
+    if (grids.empty()) all.emplace_back("the frame has no light volume: no light is indirect");
     for (std::string& note : notes_on_small_portals(*frame.recorded, grids, params.occlusion)) all.push_back(std::move(note));
     return all;
 }

@@ -132,10 +132,20 @@ TEST(spot_maps, look_along_the_cone_and_hold_its_rim) {
     const glm::dvec3 center = in_map(frame, views[0], {1, 0, -2});
     EXPECT_NEAR(center.x, 0.5, 1e-12);
     EXPECT_NEAR(center.y, 0.5, 1e-12);
-    EXPECT_NEAR(center.z, 0.1 / 4, 1e-8);  // near is 1 % of the range of 10 m
+    EXPECT_NEAR(center.z, 0.05 / 4, 1e-8);  // whatever the range of 10 m
     const double rim = std::tan(0.5) * 4;
     EXPECT_NEAR(in_map(frame, views[0], {1 + rim, 0, -2}).x * 256, 256 - 8, 1e-4);
     EXPECT_NEAR(views[0].texel * 240, 2 * std::tan(0.5), 1e-6);
+}
+
+TEST(spot_maps, hold_casters_near_a_light_that_shines_far) {
+    Frame frame = sunny();
+    frame.sun.irradiance = {};
+    frame.lights = {spot(0.5f)};
+    for (const float range : {2.f, 10.f, 101.f, 1e6f}) {
+        frame.lights[0].range = range;
+        EXPECT_NEAR(in_map(frame, shadow_views(frame)[0], {1, 4 - 0.05, -2}).z, 1, 1e-6) << range;
+    }
 }
 
 TEST(spot_maps, never_open_wider_than_170_degrees) {
@@ -163,7 +173,7 @@ TEST(omni_maps, are_six_and_hold_every_direction_with_room_for_the_widest_kernel
     EXPECT_EQ(cube_face({0.5, -2, 1}), 3u);
     EXPECT_EQ(cube_face({0.5, 1, -2}), 5u);
     const double rim = 3;  // 45 degrees off the axis is where the next face begins
-    EXPECT_NEAR(in_map(frame, views[3], {1 + rim, 4 - rim, -2}).z, 0.1 / rim, 1e-8);  // near is 1 % of the range of 10 m
+    EXPECT_NEAR(in_map(frame, views[3], {1 + rim, 4 - rim, -2}).z, 0.05 / rim, 1e-8);  // whatever the range of 10 m
 }
 
 TEST(omni_maps, stay_where_they_are_in_the_world_when_the_camera_turns) {

@@ -29,5 +29,6 @@ void main() {
     const uvec2 pixel = texel_under(view.extent);
     if (!fragment.visible || !in_band(pixel.y)) discard;
     atomicAdd(counters.drawn, 1u);
+    if (is_clamped(fragment)) atomicAdd(counters.clamped, 1u);
     write_fragment(fragment, transmittance(cell_of(pixel, gl_SampleID), fragment.z));
 }

@@ -29,5 +29,6 @@ void main() {
     if (!fragment.visible || !in_band(pixel.y)) discard;
     const uint cell = cell_of(pixel, gl_SampleID);
     atomicAdd(counters.drawn, 1u);
+    if (is_clamped(fragment)) atomicAdd(counters.clamped, 1u);
     write_fragment(fragment, transmittance(starts[cell], list_count(cell), fragment.z));
 }

@@ -20,6 +20,7 @@ struct FunctionCounters {
     ListCounters lists;  // of techniques that make lists, too
     uint drawn;
     uint scrubbed;
+    uint clamped;
 };
 
 // Optical depth is written up to here: exp(-32) = 1.3e-14, and a half float can hold 2047 such layers. INF * 0 would be NaN.

@@ -37,6 +37,9 @@ vec4 tinting_weights(inout Fragment fragment, float through) {
     return vec4((1.0 - t) * through, optical_depth(t), depths);
 }
 
+// Whether write_fragment() cuts off some of its light.
+bool is_clamped(Fragment fragment) { return any(greaterThan(max(fragment.p, fragment.e), vec3(largest_radiance))); }
+
 // through: T(z) of the fragment, per channel.
 void write_fragment(Fragment fragment, vec3 through) {
     out_extinction = vec4(optical_depth(fragment.t), 0.0);

@@ -72,5 +72,6 @@ void main() {
         through[channel] = transmittance(channel, fragment.z, moment_depth(fragment.t, push.channels == 1u ? 3u : channel));
     if (push.channels == 1u) through = through.rrr;
     atomicAdd(counters.function.drawn, 1u);
+    if (is_clamped(fragment)) atomicAdd(counters.function.clamped, 1u);
     write_fragment(fragment, through);
 }

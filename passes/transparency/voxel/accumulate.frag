@@ -20,5 +20,6 @@ void main() {
         discard;
     }
     atomicAdd(counters.function.drawn, 1u);
+    if (is_clamped(fragment)) atomicAdd(counters.function.clamped, 1u);
     write_fragment(fragment, through);
 }

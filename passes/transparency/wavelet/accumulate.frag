@@ -74,5 +74,6 @@ void main() {
         through[channel] = transmittance(channel, texel, s, wavelet_depth(fragment.t, push.channels == 1u ? 3u : channel));
     if (push.channels == 1u) through = through.rrr;
     atomicAdd(counters.drawn, 1u);
+    if (is_clamped(fragment)) atomicAdd(counters.clamped, 1u);
     write_fragment(fragment, through);
 }

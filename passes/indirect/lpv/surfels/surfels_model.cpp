@@ -82,7 +82,7 @@ private:
         const double along = surfel.position[lines.axis];
         if (along < lines.corner[lines.axis] || along > lines.end[lines.axis]) return std::nullopt;
         const Material& material = frame_.materials[frame_.draws[draw_].material];
-        if (material.alpha_mode == AlphaMode::mask && alpha_at(frame_, draw_, triangle, at) < double(material.mask_cutoff))
+        if (material.alpha_mode == AlphaMode::mask && !reaches_cutoff(alpha_at(frame_, draw_, triangle, at), material))
             return std::nullopt;
         const Attributes attributes = attributes_at(frame_, draw_, triangle, at);
         const glm::dvec3 smooth = in_world(space_.normals * attributes.normal);

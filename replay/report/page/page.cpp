@@ -1,0 +1,396 @@
+#include "replay/report/page/page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "passes/stages.h"
+#include "replay/page_parts.h"
+#include "replay/plural.h"
+#include "replay/report/page/scatter.h"
+#include "replay/report/report_columns.h"
+#include "replay/report/seen.h"
+#include "replay/report/variants.h"
+#include "replay/report/warnings.h"
+#include "replay/session/choice_text.h"
+#include "replay/tables/document.h"
+#include "replay/tables/shown_columns.h"
+#include "replay/tables/table.h"
+
+namespace strata {
+namespace {
+
+using nlohmann::ordered_json;
+
+// Of white: below it a row is called exact, and a logarithmic axis ends.
+constexpr double exact_below = 1e-4;
+constexpr std::string_view ranking_key = "ranking_error";
+
+std::string base64(std::span<const std::byte> bytes) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t three = 0;
+        for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (i + k < bytes.size() ? std::uint32_t(bytes[i + k]) : 0u);
+        for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? digits[three >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+}
+
+std::string png_uri(std::span<const std::byte> png) { return "data:image/png;base64," + base64(png); }
+
+std::string label_of(const Measurement& row) { return below_stage(label(row.technique, row.settings)); }
+
+bool is_measured(const Measurement& row) { return !row.accuracy.technique_errors.empty(); }
+
+/// "0.04 % of white, not seen"; another error than of white has no words.
+std::string error_words(const Measurement& row) {
+    const Metric& metric = ranking_metric(row);
+    if (!is_of_white(metric)) return fmt::format("{} {}", metric.name, short_number(metric.value));
+    if (metric.value < exact_below) return "exact";
+    return fmt::format("{} % of white, {}", short_number(100 * metric.value), seen_as(metric.value).words);
+}
+
+std::string time_words(const Report& report, const Measurement& row) {
+    if (!report.is_timed) return "";
+    if (row.time) return fmt::format("{:.2f} \u00d7 the time of {}", row.time->median, below_stage(report.time_unit));
+    return short_number(row.stage_ms.median) + " ms";
+}
+
+/// What a page says of a report, part by part; each fills a place of page.html.
+class HtmlPage {
+public:
+    explicit HtmlPage(const Report& report) : report_(report), answer_(answer_of(report)), sheet_(sheet_of(report)) {
+        for (const Measurement& row : report.rows)
+            if (!kinds_.contains(row.technique)) kinds_.emplace(row.technique, kinds_.size());
+        choose_pictures();
+    }
+
+    std::string text() const {
+        const std::map<std::string_view, std::string> parts = {
+            {"title", escaped(fmt::format("{}: {}", report_.capture_name, name(report_.stage)))},
+            {"css", std::string(page_css)},
+            {"truth", report_.truth_picture.empty() ? "none" : fmt::format("url({})", png_uri(report_.truth_picture))},
+            {"aspect", fmt::format("{} / {}", report_.width, report_.height)},
+            {"provenance", provenance()},
+            {"verdict", escaped(verdict())},
+            {"notes", notes()},
+            {"answer", answer()},
+            {"command", shown_ ? command(report_.rows[*shown_]) : ""},
+            {"three", three()},
+            {"scale", scale()},
+            {"axes", axis_choices()},
+            {"plots", plots()},
+            {"techniques", techniques()},
+            {"table", table()},
+            {"sheet", small_pictures()},
+            {"left_out", left_out()},
+            {"measured", measured()},
+            {"data", data()},
+            {"js", std::string(page_js)}};
+        return filled(page_html, parts);
+    }
+
+private:
+    /// The template with its {{places}}.
+    static std::string filled(std::string_view text, const std::map<std::string_view, std::string>& parts) {
+        std::string made;
+        for (std::size_t at = 0;;) {
+            const std::size_t open = text.find("{{", at);
+            made += text.substr(at, open - at);
+            if (open == std::string_view::npos) return made;
+            const std::size_t close = text.find("}}", open);
+            made += parts.at(text.substr(open + 2, close - open - 2));
+            at = close + 2;
+        }
+    }
+
+    /// Rows of the answer and of the front first, then by error, until the bytes are spent.
+    void choose_pictures() {
+        shown_ = answer_.recommended ? answer_.recommended : answer_.nearest;
+        if (!shown_ && first_measured(report_)) shown_ = std::size_t(first_measured(report_) - report_.rows.data());
+        const auto baseline = baseline_of(report_);
+        std::vector<std::size_t> order;
+        for (std::size_t i = 0; i < report_.rows.size(); ++i)
+            if (report_.rows[i].picture) order.push_back(i);
+        std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+            const bool is_named = shown_ == i || baseline == i || answer_.cheaper == i || answer_.most_accurate == i;
+            return is_named ? 0 : report_.rows[i].on_front ? 1 : 2;
+        });
+        has_picture_.resize(report_.rows.size());
+        std::size_t bytes = report_.truth_picture.size();
+        for (const std::size_t i : order) {
+            bytes += report_.rows[i].picture->png.size();
+            has_picture_[i] = bytes * 4 / 3 <= page_picture_bytes;
+        }
+    }
+
+    std::string provenance() const {
+        std::string text;
+        for (const std::string& part :
+             {fmt::format("{}, frame {}", report_.capture_name, report_.frame),
+              fmt::format("{} \u00d7 {}, {} per pixel", report_.width, report_.height, plural(report_.samples, "sample")),
+              fmt::format("stage {}", name(report_.stage)), plural(report_.rows.size(), "row"), report_.date})
+            if (!part.empty()) text += fmt::format("<span>{}</span>", escaped(part));
+        return text;
+    }
+
+    std::string verdict() const {
+        if (!report_.skipped.empty()) return fmt::format("The frame does not need this stage: {}", report_.skipped);
+        if (changes_too_little(report_))
+            return fmt::format("No answer: {} changes fewer than {} pixels of this view", name(report_.stage), fewest_pixels);
+        if (!shown_) return "No technique can do this frame";
+        const Measurement& row = report_.rows[*shown_];
+        const std::string facts =
+            fmt::format("{}{}{}", error_words(row), report_.is_timed ? ", at " : "", time_words(report_, row));
+        if (!report_.question.is_asked())
+            return fmt::format("{} is the most accurate of {}: {}", label_of(row), plural(report_.rows.size(), "row"), facts);
+        if (!answer_.recommended)
+            return fmt::format("No technique keeps the limits; {} is the nearest: {}", label_of(row), facts);
+        return fmt::format("{} {}: {}", shown_ == baseline_of(report_) ? "Keep" : "Use", label_of(row), facts);
+    }
+
+    std::string notes() const {
+        std::string text;
+        if (report_.device.software && report_.is_timed)
+            text += fmt::format(
+                "<p class=\"warn\">Times are of a CPU driver ({}): they rank techniques on it and model no "
+                "GPU.</p>\n",
+                escaped(report_.device.name));
+        for (const Warning& warning : warnings_of(report_))
+            text += fmt::format("<p class=\"warn\" data-id=\"{}\">{}</p>\n", escaped(warning.id), escaped(warning.text));
+        if (!report_.stopped.empty()) text += fmt::format("<p class=\"warn\">{}</p>\n", escaped(report_.stopped));
+        return text;
+    }
+
+    /// Its last line, a command, has a place of its own.
+    std::string answer() const {
+        std::string text;
+        for (const AnswerLine& line : answer_lines(report_)) {
+            if (line.head == replay_head) continue;
+            text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(line.head), escaped(line.text));
+        }
+        return text.empty() ? "" : "<dl>\n" + text + "</dl>\n";
+    }
+
+    std::string command(const Measurement& row) const {
+        return fmt::format("<div class=\"cmd\"><code>{}</code><button class=\"copy js\">copy</button></div>\n",
+                           escaped(command_of(report_, row)));
+    }
+
+    std::string picture(std::size_t row) const {
+        const bool is_there = has_picture_[row];
+        return fmt::format("<div class=\"pic\" data-i=\"{}\">{}</div>", row,
+                           is_there ? fmt::format("<img alt=\"{}\" src=\"{}\">", escaped(label_of(report_.rows[row])),
+                                                  png_uri(report_.rows[row].picture->png))
+                                    : "<p>no picture: the page would be too large</p>");
+    }
+
+    /// Truth, the row of the answer and the baseline. Their pictures are those of the sheet, which the script puts here, so that
+    /// no picture is in the page twice.
+    std::string three() const {
+        if (report_.truth_picture.empty() || !shown_) return "";
+        std::string text = fmt::format("<figure><div class=\"pic\"></div><figcaption><b>truth</b><br>{}</figcaption></figure>\n",
+                                       escaped(report_.truths.front().is));
+        const auto add = [&](std::size_t row, std::string_view head) {
+            text += fmt::format(
+                "<figure class=\"js\"><div class=\"pic\" data-copy=\"{}\"></div><figcaption><b>{}</b><br>{}: {}"
+                "</figcaption></figure>\n",
+                row, head, escaped(label_of(report_.rows[row])), escaped(error_words(report_.rows[row])));
+        };
+        add(*shown_, answer_.recommended ? "recommended" : answer_.nearest ? "nearest" : "most accurate");
+        const auto baseline = baseline_of(report_);
+        if (baseline && baseline != shown_ && is_measured(report_.rows[*baseline])) add(*baseline, "baseline");
+        return text;
+    }
+
+    std::string scale() const {
+        if (!ranking_error(report_).is_of_white) return "";
+        std::string text = "<div class=\"scale\">";
+        const auto classes = seen_classes();
+        for (std::size_t i = 0; i < classes.size(); ++i) {
+            const std::string to = i + 1 < classes.size() ? fmt::format("{:g}", 100 * classes[i + 1].from) : "";
+            const std::string range = i == 0       ? fmt::format("below {} %", to)
+                                      : to.empty() ? fmt::format("from {:g} %", 100 * classes[i].from)
+                                                   : fmt::format("{:g} to {} %", 100 * classes[i].from, to);
+            text += fmt::format("<div><i class=\"k{}\"></i><b>{}</b> {}</div>", i, range, classes[i].words);
+        }
+        return text + "</div>\n";
+    }
+
+    std::vector<std::size_t> axes(Role role) const {
+        std::vector<std::size_t> found;
+        for (std::size_t i = 0; i < sheet_.columns.size(); ++i) {
+            const Described& is = sheet_.columns[i];
+            if ((is.key == ranking_key ? Role::error : is.role) != role) continue;
+            const bool has_numbers = std::ranges::any_of(sheet_.rows, [&](const Sheet::Row& row) {
+                const auto number = cell_number(row.values[i]);
+                return number && std::isfinite(*number) && *number > 0;
+            });
+            if (!has_numbers) continue;
+            found.insert(is.key == ranking_key ? found.begin() : found.end(), i);
+        }
+        return found;
+    }
+
+    std::string axis_title(std::size_t column) const {
+        const Described& is = sheet_.columns[column];
+        const std::string title = is.title.empty() ? is.key : is.title;
+        const bool is_percent = is.kind == CellKind::share && title.find('%') == std::string::npos;
+        return title + (is_percent ? ", %" : is.unit.empty() ? "" : ", " + is.unit);
+    }
+
+    std::string axis_choices() const {
+        const auto choice = [&](const char* id, const char* word, Role role) {
+            std::string text = fmt::format("<label>{} <select id=\"{}\">", word, id);
+            for (const std::size_t column : axes(role))
+                text += fmt::format("<option value=\"{}\">{}</option>", column, escaped(axis_title(column)));
+            return text + "</select></label>\n";
+        };
+        return choice("up", "up", Role::error) + choice("across", "across", Role::cost);
+    }
+
+    double scaled(std::size_t column, double value) const {
+        return sheet_.columns[column].kind == CellKind::share ? 100 * value : value;
+    }
+
+    std::string plots() const {
+        std::string text;
+        for (const std::size_t up : axes(Role::error))
+            for (const std::size_t across : axes(Role::cost))
+                text += fmt::format("<div class=\"one\" data-up=\"{}\" data-across=\"{}\"{}>{}</div>\n", up, across,
+                                    text.empty() ? "" : " hidden", as_svg(plot(up, across)));
+        return text.empty() ? "<p>nothing was measured</p>" : text;
+    }
+
+    ScatterPlot plot(std::size_t up, std::size_t across) const {
+        ScatterPlot made{.x_title = axis_title(across), .y_title = axis_title(up)};
+        const bool is_ranking = sheet_.columns[up].key == ranking_key, is_time = sheet_.columns[across].key == "time";
+        if (is_ranking && ranking_error(report_).is_of_white) made.y_floor = 100 * exact_below, made.strip_title = "exact";
+        if (is_ranking && report_.question.error) made.most_y = scaled(up, *report_.question.error);
+        if (is_time && report_.question.within) made.most_x = report_.question.within;
+        for (std::size_t i = 0; i < sheet_.rows.size(); ++i) {
+            const auto x = cell_number(sheet_.rows[i].values[across]), y = cell_number(sheet_.rows[i].values[up]);
+            if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y)) continue;
+            ScatterPoint point{.label = label_of(report_.rows[i]),
+                               .place = i,
+                               .kind = kinds_.at(report_.rows[i].technique),
+                               .x = scaled(across, *x),
+                               .y = scaled(up, *y),
+                               .is_emphasized = i == shown_};
+            if (const auto* spread = std::get_if<Spread>(&sheet_.rows[i].values[across])) {
+                if (spread->repeats > 1) point.low_x = spread->low, point.high_x = spread->high;
+            }
+            made.points.push_back(std::move(point));
+        }
+        return made;
+    }
+
+    std::string mark(const std::string& technique) const {
+        const std::size_t kind = kinds_.at(technique);
+        return fmt::format("<svg class=\"mark\" viewBox=\"-7 -7 14 14\"><path class=\"{} full\" d=\"{}\"/></svg>",
+                           mark_class(kind), mark_path(kind));
+    }
+
+    std::string techniques() const {
+        std::string text;
+        for (const auto& [technique, kind] : kinds_)
+            text += fmt::format("<button class=\"technique\" aria-pressed=\"true\" data-t=\"{}\">{}{}</button>\n",
+                                escaped(technique), mark(technique), escaped(below_stage(technique)));
+        return text;
+    }
+
+    std::string table() const {
+        const std::vector<std::size_t> shown = shown_columns(sheet_, in_text);
+        std::string text = fmt::format("<table class=\"rows\"><thead><tr><th><button data-k=\"-1\">{}</button></th>",
+                                       escaped(sheet_.heads_labels));
+        for (const std::size_t column : shown)
+            text += fmt::format("<th title=\"{}\"><button data-k=\"{}\">{}</button></th>", escaped(sheet_.columns[column].help),
+                                column, escaped(axis_title(column)));
+        text += "</tr></thead>\n<tbody>\n";
+        for (std::size_t i = 0; i < sheet_.rows.size(); ++i) {
+            const Sheet::Row& row = sheet_.rows[i];
+            text += fmt::format("<tr data-i=\"{}\" tabindex=\"0\"><td>{}{}{}</td>", i, mark(report_.rows[i].technique),
+                                escaped(row.name.label),
+                                report_.rows[i].on_front ? " <b title=\"nothing is both more accurate and faster\">*</b>" : "");
+            if (!row.name.instead.empty()) {
+                text +=
+                    fmt::format("<td class=\"instead\" colspan=\"{}\">{}</td></tr>\n", shown.size(), escaped(row.name.instead));
+                continue;
+            }
+            for (const std::size_t column : shown) {
+                const auto number = cell_number(row.values[column]);
+                text += fmt::format("<td{}>{}{}</td>", number ? fmt::format(" data-v=\"{:.9g}\"", *number) : "",
+                                    sheet_.columns[column].key == ranking_key ? class_square(report_.rows[i]) : "",
+                                    escaped(cell_text(sheet_.columns[column], row.values[column])));
+            }
+            text += "</tr>\n";
+        }
+        return text + "</tbody></table>\n";
+    }
+
+    static std::string class_square(const Measurement& row) {
+        const Metric& metric = ranking_metric(row);
+        if (!is_of_white(metric)) return "";
+        return fmt::format("<i class=\"k{}\"></i>", &seen_as(metric.value) - seen_classes().data());
+    }
+
+    std::string small_pictures() const {
+        std::string text;
+        for (std::size_t i = 0; i < report_.rows.size(); ++i)
+            if (report_.rows[i].picture)
+                text += fmt::format("<figure data-i=\"{}\">{}<figcaption>{}<b>{}</b><br>{}</figcaption></figure>\n", i,
+                                    picture(i), mark(report_.rows[i].technique), escaped(label_of(report_.rows[i])),
+                                    escaped(error_words(report_.rows[i])));
+        return text;
+    }
+
+    std::string left_out() const {
+        std::string text;
+        for (const Measurement& row : report_.rows)
+            if (!is_measured(row) && !row.accuracy.not_supported.empty())
+                text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(label_of(row)), escaped(row.accuracy.not_supported));
+        return text.empty() ? "" : "<h3>Not in the table</h3><dl>\n" + text + "</dl>\n";
+    }
+
+    /// The heading of the text, line by line, and what each row counted.
+    std::string measured() const { return fmt::format("<pre>{}</pre>\n", escaped(as_text(page_of(report_)))); }
+
+    std::string data() const {
+        ordered_json json{
+            {"width", report_.width}, {"height", report_.height}, {"selected", nullptr}, {"rows", ordered_json::array()}};
+        if (shown_) json["selected"] = *shown_;
+        for (const SeenClass& one : seen_classes()) json["classes"].push_back({{"from", one.from}, {"words", one.words}});
+        for (std::size_t i = 0; i < report_.rows.size(); ++i) {
+            const Measurement& row = report_.rows[i];
+            ordered_json made{{"name", label_of(row)}, {"technique", row.technique}, {"front", row.on_front}};
+            if (is_measured(row)) {
+                made["says"] =
+                    fmt::format("{}{}{}", error_words(row), report_.is_timed ? " \u00b7 " : "", time_words(report_, row));
+                made["command"] = command_of(report_, row);
+            } else made["says"] = row.accuracy.not_supported;
+            if (has_picture_[i]) made["worst"] = {row.picture->worst_x, row.picture->worst_y};
+            json["rows"].push_back(std::move(made));
+        }
+        // Inside of a script "</" would end it.
+        std::string text = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+        for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at)) text.replace(at, 2, "<\\/");
+        return text;
+    }
+
+    const Report& report_;
+    Answer answer_;
+    Sheet sheet_;
+    std::map<std::string, std::size_t> kinds_;  ///< by technique
+    std::optional<std::size_t> shown_;          ///< the row that the page opens on
+    std::vector<bool> has_picture_;             ///< by row
+};
+
+}  // namespace
+
+std::string as_html(const Report& report) { return HtmlPage(report).text(); }
+
+}  // namespace strata

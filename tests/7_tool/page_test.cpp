@@ -1,0 +1,193 @@
+// strata report -o page.html: what the file holds, and what it does in a browser.
+#include <cmath>
+#include <fstream>
+#include <regex>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "replay/images/image_io.h"
+#include "tests/7_tool/browser.h"
+#include "tests/7_tool/process.h"
+#include "tests/support/file_text.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+std::filesystem::path page() { return folder() / "page.html"; }
+
+/// Writes a page of panes whose question the baseline does not answer.
+void make_page() {
+    ASSERT_EQ(strata("record interpenetrating_panes -o a.strata --size 64x36").code, 0);
+    const Finished made = strata("report a.strata --defaults --repeats 2 --error 1% -o page.html");
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_EQ(made.out, "");
+}
+
+json data_of(const std::string& text) {
+    constexpr std::string_view open = "<script type=\"application/json\" id=\"data\">";
+    const std::size_t begin = text.find(open) + open.size();
+    return json::parse(text.substr(begin, text.find("</script>", begin) - begin));
+}
+
+std::string from_base64(std::string_view text) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    std::uint32_t held = 0, bits = 0;
+    for (const char c : text) {
+        const std::size_t digit = digits.find(c);
+        if (digit == std::string_view::npos) break;
+        held = held << 6 | std::uint32_t(digit);
+        bits += 6;
+        if (bits < 8) continue;
+        bits -= 8;
+        bytes += char(held >> bits & 255u);
+    }
+    return bytes;
+}
+
+/// The picture of the truth, which the style has.
+HostImage truth_of(const std::string& text) {
+    constexpr std::string_view open = "--truth:url(data:image/png;base64,";
+    const std::size_t begin = text.find(open) + open.size();
+    std::ofstream(folder() / "truth.png", std::ios::binary)
+        << from_base64(std::string_view(text).substr(begin, text.find(')', begin) - begin));
+    return must(read_png(folder() / "truth.png"));
+}
+
+// IEC 61966-2-1; the frame has an exposure of 1, the white of its film is 1.7.
+double shown(double light) {
+    const double display = std::clamp(light * (1 + light / (1.7 * 1.7)) / (1 + light), 0., 1.);
+    return display <= .0031308 ? 12.92 * display : 1.055 * std::pow(display, 1 / 2.4) - .055;
+}
+
+TEST(Page, HoldsTheAnswerThePicturesAndTheTableInOneFile) {
+    make_page();
+    const std::string text = file_text(page());
+    EXPECT_LT(text.size(), 5'000'000u);
+    EXPECT_THAT(text, Not(HasSubstr("{{")));
+    EXPECT_FALSE(std::regex_search(text, std::regex("(src|href)=\"?https?:|url\\(https?:|@import")));
+    const json data = data_of(text);
+    const std::string chosen = data["rows"][std::size_t(data["selected"])]["name"];
+    EXPECT_THAT(text, HasSubstr("<h1>Use " + chosen + ": "));
+    EXPECT_THAT(text, HasSubstr("<code>strata replay a.strata --frames 0 --use transparency/" + chosen + "</code>"));
+    for (const json& row : data["rows"]) {
+        EXPECT_THAT(text, HasSubstr("</svg>" + std::string(row["name"]))) << "in the table";
+        EXPECT_TRUE(row.contains("worst")) << row << " has no picture";
+    }
+}
+
+TEST(Page, ShowsTheTruthsRadianceAsADisplayDoes) {
+    make_page();
+    const HostImage truth = truth_of(file_text(page()));
+    ASSERT_EQ(strata("replay a.strata --use transparency/sorted_lists --outputs color -o exact").code, 0);
+    const NamedImages images = must(read_exr(only_file(folder() / "exact", ".exr")));
+    const HostImage& color = images.at("color");
+    double worst = 0, brightest = 0;
+    for (std::uint32_t y = 0; y < 36; ++y)
+        for (std::uint32_t x = 0; x < 64; ++x)
+            for (int c = 0; c < 3; ++c) {
+                worst = std::max(worst, std::abs(texel(truth, x, y)[c] - shown(texel(color, x, y)[c])));
+                brightest = std::max(brightest, texel(truth, x, y)[c]);
+            }
+    EXPECT_LT(worst, .6 / 255);
+    EXPECT_GT(brightest, .3);
+}
+
+TEST(Page, IsOfOneCaptureAndOfReportsAlone) {
+    ASSERT_EQ(strata("record three_panes -o a.strata --size 16x9").code, 0);
+    EXPECT_THAT(strata("report a.strata a.strata -o page.html -v"), Refuses(2, "report.page_of_one", "captures=2"));
+    EXPECT_THAT(strata("report a.strata --json -o page.html -v"), Refuses(2, "output.ending_contradicts"));
+    EXPECT_THAT(strata("report --hard-cases -o page.html -v"), Refuses(2, "output.unknown_ending"));
+    EXPECT_FALSE(std::filesystem::exists(page()));
+}
+
+TEST(Page, DoesInABrowserWhatItsControlsSay) {
+    if (!Browser::is_there()) GTEST_SKIP() << "no chromium-headless-shell";
+    make_page();
+    Browser browser(page());
+    const auto is = [&](const std::string& expression) { return browser.becomes_true(expression); };
+    EXPECT_TRUE(
+        is("document.querySelector('#name').textContent === document.querySelector('h1').textContent.match(/^Use (.*): /)[1]"));
+    EXPECT_TRUE(is("document.querySelectorAll('.three .pic').length === 3 && !document.querySelector('.three figure').hidden"));
+    EXPECT_TRUE(is("document.querySelectorAll('.sheet canvas').length === document.querySelectorAll('.sheet img').length"));
+    // The magnifier is at the pixel that is furthest off; that of the least accurate row is.
+    browser.value("document.querySelector('.rows tbody tr:last-child').click()");
+    EXPECT_TRUE(
+        is("/^[0-9.]+ % of white: [a-z ]+$/.test(document.querySelector('#off').textContent) && "
+           "parseFloat(document.querySelector('#off').textContent) > 1"));
+
+    browser.press('j');
+    EXPECT_TRUE(
+        is("document.querySelectorAll('.rows .chosen').length === 1 && document.querySelector('.rows "
+           ".chosen').textContent.includes(document.querySelector('#name').textContent)"));
+    EXPECT_TRUE(is("location.hash === '#' + encodeURIComponent(document.querySelector('#name').textContent)"));
+    browser.press('r');
+    EXPECT_TRUE(
+        is("document.querySelector('#name').textContent === document.querySelector('h1').textContent.match(/^Use (.*): /)[1]"));
+    const std::pair<char, const char*> modes[] = {
+        {'1', "divider"}, {'2', "truth"}, {'3', "row"}, {'4', "difference"}, {'5', "signed"}};
+    for (const auto& [key, mode] : modes) {
+        browser.press(key);
+        EXPECT_TRUE(is(std::string("document.querySelector('#modes [aria-pressed=true]').dataset.mode === '") + mode + "'"))
+            << key;
+    }
+    browser.press('f');
+    EXPECT_TRUE(is("document.querySelector('.tag.left').textContent === 'truth'"));
+    browser.press('1'), browser.press('[');
+    EXPECT_TRUE(is("document.querySelector('#divider').getAttribute('aria-valuenow') === '45'"));
+    browser.press('m');
+    EXPECT_TRUE(
+        is("document.querySelector('#photos').getAttribute('aria-pressed') === 'true' && document.querySelector('.sheet "
+           "canvas').hidden"));
+    browser.press('t');
+    EXPECT_TRUE(is("['dark', 'light'].includes(document.documentElement.dataset.theme)"));
+    browser.press('?');
+    EXPECT_TRUE(is("document.querySelector('#keys').open"));
+
+    // Every pair of axes has its plot, and one is shown.
+    EXPECT_GE(browser.value("document.querySelectorAll('#plots .one').length").get<int>(), 10);
+    browser.value(
+        "(() => { const up = document.querySelector('#up'); up.selectedIndex = 1; up.dispatchEvent(new Event('change')); })()");
+    EXPECT_TRUE(
+        is("document.querySelectorAll('#plots .one:not([hidden])').length === 1 && "
+           "document.querySelector('#plots .one:not([hidden])').dataset.up === document.querySelector('#up').value"));
+    // A click on a point chooses its row.
+    browser.value("document.querySelector('#plots').scrollIntoView()");
+    const json at = browser.value(
+        "(() => { const b = document.querySelector('#plots .one:not([hidden]) .pt').getBoundingClientRect(); return [b.x + "
+        "b.width / 2, b.y + b.height / 2]; })()");
+    browser.click(at[0], at[1]);
+    EXPECT_TRUE(is("document.querySelectorAll('#plots .one:not([hidden]) .pt.chosen').length === 1"));
+    // Sorting by the last column orders its numbers; filters hide rows, points and pictures alike.
+    browser.value("document.querySelector('.rows th:last-child button').click()");
+    EXPECT_TRUE(
+        is("(() => { const v = [...document.querySelectorAll('.rows tbody td:last-child')].map(cell => +cell.dataset.v); return "
+           "v.every((x, i) => i === 0 || v[i - 1] <= x); })()"));
+    browser.value(
+        "(() => { const filter = document.querySelector('#filter'); filter.value = 'weighted'; filter.dispatchEvent(new "
+        "Event('input')); })()");
+    EXPECT_TRUE(
+        is("[...document.querySelectorAll('.rows tbody tr:not([hidden])')].every(row => row.textContent.includes('weighted')) && "
+           "document.querySelectorAll('.rows tbody tr:not([hidden])').length === 2 && document.querySelectorAll('.sheet "
+           "figure:not([hidden])').length === 2"));
+    browser.value(
+        "(() => { const filter = document.querySelector('#filter'); filter.value = ''; filter.dispatchEvent(new Event('input')); "
+        "document.querySelector('#front').click(); })()");
+    EXPECT_TRUE(is(
+        "document.querySelectorAll('.rows tbody tr:not([hidden])').length < document.querySelectorAll('.rows tbody tr').length"));
+    browser.value("document.querySelector('#front').click(), document.querySelector('.technique').click()");
+    EXPECT_TRUE(is("document.querySelectorAll('.rows tbody tr[hidden]').length === 1"));
+    browser.value("document.querySelector('.cmd .copy').click()");
+    EXPECT_TRUE(is("/copied|selected/.test(document.querySelector('.cmd .copy').textContent)"));
+    EXPECT_THAT(browser.complaints(), testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace strata
