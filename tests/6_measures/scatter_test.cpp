@@ -111,6 +111,20 @@ TEST(Scatter, WhatIsBelowTheFloorLiesInTheStripAndNamesAreEscaped) {
     EXPECT_THAT(svg, HasSubstr("&lt;exact &amp; &quot;so&quot;&gt;"));
 }
 
+TEST(Scatter, BarsEndWithinThePlot) {
+    const ScatterPlot plot{.points = {{.label = "a", .place = 0, .x = 1, .y = 8, .low_x = .2, .high_x = 1.5},
+                                      {.label = "b", .place = 1, .x = 2, .y = 4, .low_x = 1.9, .high_x = 30}}};
+    const std::string svg = as_svg(plot);
+    const std::regex bar("<line class=\"sp c\\d\" x1=\"([-.\\d]+)\" x2=\"([-.\\d]+)\"");
+    std::size_t bars = 0;
+    for (std::sregex_iterator at(svg.begin(), svg.end(), bar), end; at != end; ++at, ++bars) {
+        EXPECT_GE(std::stod((*at)[1]), 58);
+        EXPECT_LE(std::stod((*at)[2]), 708);
+        EXPECT_LT(std::stod((*at)[1]), std::stod((*at)[2]));
+    }
+    EXPECT_EQ(bars, 2u);
+}
+
 TEST(SeenClasses, AreOfTheirBounds) {
     for (const auto& [error, words] : {std::pair(0., "not seen"),
                                        {.00499, "not seen"},

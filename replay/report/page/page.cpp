@@ -25,8 +25,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Of white: below it a row is called exact, and a logarithmic axis ends.
-constexpr double exact_below = 1e-4;
+// Of white: errors below it are not told apart, and a logarithmic axis ends.
+constexpr double smallest_told = 1e-4;
+constexpr std::string_view below_smallest = "under 0.01";
 constexpr std::string_view ranking_key = "ranking_error";
 
 std::string base64(std::span<const std::byte> bytes) {
@@ -50,8 +51,8 @@ bool is_measured(const Measurement& row) { return !row.accuracy.technique_errors
 std::string error_words(const Measurement& row) {
     const Metric& metric = ranking_metric(row);
     if (!is_of_white(metric)) return fmt::format("{} {}", metric.name, short_number(metric.value));
-    if (metric.value < exact_below) return "exact";
-    return fmt::format("{} % of white, {}", short_number(100 * metric.value), seen_as(metric.value).words);
+    const std::string percent = metric.value < smallest_told ? std::string(below_smallest) : short_number(100 * metric.value);
+    return fmt::format("{} % of white, {}", percent, seen_as(metric.value).words);
 }
 
 std::string time_words(const Report& report, const Measurement& row) {
@@ -269,7 +270,7 @@ private:
     ScatterPlot plot(std::size_t up, std::size_t across) const {
         ScatterPlot made{.x_title = axis_title(across), .y_title = axis_title(up)};
         const bool is_ranking = sheet_.columns[up].key == ranking_key, is_time = sheet_.columns[across].key == "time";
-        if (is_ranking && ranking_error(report_).is_of_white) made.y_floor = 100 * exact_below, made.strip_title = "exact";
+        if (is_ranking && ranking_error(report_).is_of_white) made.y_floor = 100 * smallest_told, made.strip_title = "< 0.01";
         if (is_ranking && report_.question.error) made.most_y = scaled(up, *report_.question.error);
         if (is_time && report_.question.within) made.most_x = report_.question.within;
         for (std::size_t i = 0; i < sheet_.rows.size(); ++i) {

@@ -38,8 +38,12 @@ public:
         if (low_ > high_) low_ = high_ = 1;
         low_ /= margin, high_ *= margin;
     }
+    /// Shows the value with room beside it.
     void reach(const std::optional<double>& value) {
         if (value && *value > floor_) low_ = std::min(low_, *value / 1.2), high_ = std::max(high_, *value * 1.2);
+    }
+    void hold(const std::optional<double>& value) {
+        if (value && *value > floor_) low_ = std::min(low_, *value), high_ = std::max(high_, *value);
     }
     double at(double value) const {
         if (value <= floor_) return below_;
@@ -124,6 +128,7 @@ public:
           y_(values(&ScatterPoint::y), plot.y_floor, 1.35, bottom(), top, bottom() + strip / 2),
           labels_(left, top - 8, width - 2, bottom() + strip) {
         x_.reach(plot.most_x), y_.reach(plot.most_y);
+        for (const ScatterPoint& point : plot.points) x_.hold(point.low_x), x_.hold(point.high_x);
     }
 
     std::string svg() {
@@ -147,20 +152,24 @@ private:
         return all;
     }
 
-    std::string ground() const {
+    std::string ground() {
         if (!plot_.most_x && !plot_.most_y) return "";
         const double x = plot_.most_x ? x_.at(*plot_.most_x) : width - right, y = plot_.most_y ? y_.at(*plot_.most_y) : top;
+        const std::string_view says = plot_.most_x && plot_.most_y ? "keeps both limits" : "keeps the limit";
+        labels_.keep_clear({left, y, left + 6 + double(says.size()) * wide_letter, y + 20});
         return fmt::format(R"(<rect class="ok" x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"/>)", left, y, x - left,
                            bottom() + strip - y) +
-               text_at(left + 6, y + 16, "start", "band", plot_.most_x && plot_.most_y ? "keeps both limits" : "keeps the limit");
+               text_at(left + 6, y + 16, "start", "band", says);
     }
 
     std::string axes() const {
         std::string text;
-        for (const double value : y_.ticks())
+        for (const double value : y_.ticks()) {
+            if (y_.has_below() && y_.at(value) > bottom() - text_size) continue;  // the strip's title is there
             text += fmt::format(R"(<line class="g" x1="{0}" x2="{1}" y1="{2:.1f}" y2="{2:.1f}"/>)", left, width - right,
                                 y_.at(value)) +
                     text_at(left - 8, y_.at(value) + 4, "end", "t", short_number(value));
+        }
         for (const double value : x_.ticks()) {
             if (x_.has_below() && x_.at(value) < left + 40) continue;
             text += fmt::format(R"(<line class="ax" x1="{0:.1f}" x2="{0:.1f}" y1="{1}" y2="{2}"/>)", x_.at(value),
