@@ -141,7 +141,7 @@ Result<void> judge_picture(Session& session, Request request, const PictureTruth
     }
     accuracy.technique_errors = metrics_of(display_error(got, wanted), got, wanted);
     accuracy.flip = display_flip(color_planes(wanted), color_planes(got)).mean;
-    accuracy.touched.clear(), accuracy.footing.reset(), accuracy.touched_share = 1;
+    accuracy.touched.clear(), accuracy.footing.emplace(), accuracy.touched_share = 1;
     if (truth.touched_share == 0) return {};
     const DisplayError error = display_error(got, touched);
     accuracy.touched = metrics_of(error, got, touched);

@@ -271,6 +271,7 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
     const DisplayLight light = display_light(*radiance, stage.frame);  // before samples that the stage leaves are left out
     add_display_errors(display_error(light.got, light.wanted), accuracy.technique_errors);
     accuracy.flip = radiance_flip(color_planes(radiance->wanted), color_planes(radiance->got)).mean;
+    accuracy.footing.emplace();  // no pixel
     if (const auto share = keep_touched(of_stage, stage.before, truth)) {
         accuracy.touched_share = *share;
         accuracy.touched = of_stage.judge(stage.result, truth, input);

@@ -218,6 +218,10 @@ TEST(Judge, MeasuresWhatTheStageTouchesAlsoAlone) {
     truth.at("color").at(2, 0) *= 1 + 0x1p-23;
     EXPECT_DOUBLE_EQ(judged.against_truth(truth).touched_share, 1. / 12) << "a rounded sample is not drawn over";
     EXPECT_TRUE(judged.against_truth(judged.model).touched.empty()) << "nothing is drawn over";
+    EXPECT_EQ(judged.against_truth(judged.model).footing->pixels, 0u) << "no ground for an answer";
+    EXPECT_EQ(accuracy.footing->pixels, 1u);
+    EXPECT_NEAR(accuracy.footing->brightest_share, 1, 1e-12);
+    EXPECT_EQ(accuracy.footing->x, 1u);
 }
 
 /// A sample of 2 beside one that the stage draws over dims what the pixel shows of it.
