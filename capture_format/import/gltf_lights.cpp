@@ -24,7 +24,7 @@ glm::vec3 any_perpendicular(glm::vec3 axis) {
     return glm::normalize(glm::cross(axis, std::abs(axis.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)));
 }
 
-/// Of a light without a range, until end_lights().
+/// Range of a light that has none, until end_lights().
 constexpr float endless = std::numeric_limits<float>::max();
 
 Light convert_light(const LightSource& source, const glm::dmat4& to_world) {

@@ -16,7 +16,7 @@ namespace {
 
 double encoded(double linear) { return linear_to_srgb(std::clamp(linear, 0., 1.)); }
 
-/// Of encoded light: a picture of 8 bits shows it as white, or as black.
+/// Whether a picture of 8 bits shows encoded light as white, or as black.
 bool is_clipped(const glm::dvec3& color) {
     constexpr double half_a_step = .5 / 255;
     return glm::all(glm::greaterThanEqual(color, glm::dvec3(1 - half_a_step))) ||

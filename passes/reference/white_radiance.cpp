@@ -46,7 +46,7 @@ struct Extremes {
         }
     }
 
-    /// Of a place from the middle, a quarter of the diagonal at least; infinite without draws.
+    /// Distance of a place from the middle, a quarter of the diagonal at least; infinite without draws.
     double distance(const glm::dvec3& place) const {
         if (!(least.x <= most.x)) return HUGE_VAL;
         const double away = std::max(glm::length(place - .5 * (least + most)), glm::length(most - least) / 4);

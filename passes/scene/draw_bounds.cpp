@@ -19,16 +19,20 @@ BoundingBox box_around(std::span<const glm::vec3> points) {
     return {low, high};
 }
 
+std::array<glm::dvec3, 8> corners_of(const BoundingBox& box) {
+    std::array<glm::dvec3, 8> corners;
+    for (unsigned i = 0; i < 8; ++i)
+        corners[i] = {i & 1u ? box.high.x : box.low.x, i & 2u ? box.high.y : box.low.y, i & 4u ? box.high.z : box.low.z};
+    return corners;
+}
+
 BoundingSphere sphere_around(const Frame& frame, const Draw& draw, const BoundingBox& box) {
     const auto placed = [&](const glm::dvec3& p) {
         return in_view_space(frame.view, glm::dvec3(draw.to_world * glm::dvec4(p, 1)));
     };
     BoundingSphere sphere{placed(0.5 * (box.low + box.high)), 0};
-    for (unsigned i = 0; i < 8; ++i) {
-        const glm::dvec3 corner(i & 1u ? box.high.x : box.low.x, i & 2u ? box.high.y : box.low.y,
-                                i & 4u ? box.high.z : box.low.z);
+    for (const glm::dvec3& corner : corners_of(box))
         sphere.radius = std::max(sphere.radius, glm::length(placed(corner) - sphere.center));
-    }
     return sphere;
 }
 

@@ -1,6 +1,7 @@
 // Bounding boxes of meshes and bounding spheres of draws: what the device culls by and what shadow maps must contain.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct BoundingBox {
     glm::dvec3 low{0}, high{0};
 };
 BoundingBox box_around(std::span<const glm::vec3> points);
+std::array<glm::dvec3, 8> corners_of(const BoundingBox&);
 
 /// In view space.
 struct BoundingSphere {

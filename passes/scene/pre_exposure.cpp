@@ -38,10 +38,7 @@ std::optional<BoundingBox> scene_box(const Frame& frame) {
     for (const Mesh& mesh : frame.meshes) of_meshes.push_back(box_around(mesh.positions));
     std::optional<BoundingBox> scene;
     for (const Draw& draw : frame.draws) {
-        const BoundingBox& box = of_meshes[draw.mesh];
-        for (unsigned i = 0; i < 8; ++i) {
-            const glm::dvec3 corner(i & 1u ? box.high.x : box.low.x, i & 2u ? box.high.y : box.low.y,
-                                    i & 4u ? box.high.z : box.low.z);
+        for (const glm::dvec3& corner : corners_of(of_meshes[draw.mesh])) {
             const glm::dvec3 placed(draw.to_world * glm::dvec4(corner, 1));
             if (!scene) scene = BoundingBox{placed, placed};
             scene->low = glm::min(scene->low, placed), scene->high = glm::max(scene->high, placed);

@@ -38,11 +38,8 @@ struct IsaArguments {
 Result<std::vector<const GpuModel*>> models_of(const IsaArguments& options) {
     std::vector<const GpuModel*> models;
     for (const std::string& name : options.models) {
-        const auto found = find_gpu_model(name);
+        const auto found = find_compiled_gpu_model(name);
         if (!found) return found.error();
-        if ((*found)->family.empty())
-            return fail(Fault::usage, "isa.model_not_in_radv",
-                        "RADV does not compile for {model}; choose a device with --gpu, without --gpu-model", name);
         if (std::ranges::count(models, *found) > 0)
             return fail(Fault::usage, "options.value_twice", "{option} gives '{value}' twice", "--gpu-model", name);
         models.push_back(*found);

@@ -18,6 +18,7 @@
 #include "replay/cli/left_out.h"
 #include "replay/cli/table_output.h"
 #include "replay/cli/verb_options.h"
+#include "replay/isa/gpu_models.h"
 #include "replay/progress_line.h"
 #include "replay/report/hard_cases.h"
 #include "replay/report/page/page.h"
@@ -36,9 +37,10 @@ struct ReportArguments {
     ChoiceOptions choices;
     std::string stage = "transparency";
     std::vector<std::string> sweeps, techniques;
-    std::string error, within, error_at = "stage", metric = "display";
+    std::string error, within, cost = "time", error_at = "stage", metric = "display";
+    std::optional<std::uint64_t> memory;
     bool defaults = false;
-    std::size_t frame = 0;
+    std::string frames = "0";
     std::optional<std::size_t> repeats;
     std::optional<double> minutes;
     std::optional<std::uint32_t> flicker;
@@ -86,21 +88,41 @@ Result<Sweep> parse_sweep(const std::string& text) {
 }
 
 /// A number above 0 with an optional unit at its end: "1%" is .01, "2x" is 2.
-Result<std::optional<double>> parse_limit(const char* option, std::string text, char unit, double factor) {
-    if (text.empty()) return std::optional<double>();
-    const std::string given = text;
-    const bool has_unit = text.back() == unit;
-    if (has_unit) text.pop_back();
+Result<std::optional<double>> parse_limit(const char* option, std::string_view given, std::string_view unit, double factor) {
+    if (given.empty()) return std::optional<double>();
+    const bool has_unit = given.ends_with(unit);
+    const std::string_view text = given.substr(0, given.size() - (has_unit ? unit.size() : 0));
     double value = 0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (problem != std::errc() || end != text.data() + text.size() || !(value > 0) || !std::isfinite(value))
         return fail(Fault::usage, "options.malformed", "{option} takes a number above 0, like 2{unit}, not '{value}'", option,
                     unit, given);
-    if (!has_unit && unit == '%' && value >= 1)
+    if (!has_unit && unit == "%" && value >= 1)
         return fail(Fault::usage, "options.share_above_1",
                     "{option} {value} is a limit of {percent} %; for a percentage, write % after the number", option, given,
                     short_number(100 * value));
     return std::optional(has_unit ? value * factor : value);
+}
+
+/// --cost and the limits of what rows cost.
+Result<void> read_costs(const ReportArguments& options, Question& question) {
+    constexpr std::string_view of_gpu = "cycles:";
+    if (options.cost.starts_with(of_gpu)) {
+        const auto model = find_compiled_gpu_model(std::string_view(options.cost).substr(of_gpu.size()));
+        if (!model) return model.error();
+        question.gpu = (*model)->name;
+    } else if (options.cost == "memory") {
+        question.cost = &Standing::bytes_per_pixel;
+    } else if (options.cost != "time") {
+        return fail(Fault::usage, "options.malformed", "{option} takes {form}, not '{value}'", "--cost",
+                    "time, memory or cycles:GPU", options.cost);
+    }
+    const bool is_of_time = options.within.ends_with("ms");
+    const auto within = parse_limit("--within", options.within, is_of_time ? "ms" : "x", 1);
+    if (!within) return within.error();
+    (is_of_time ? question.within_ms : question.within) = *within;
+    if (options.memory) question.memory = double(*options.memory);
+    return {};
 }
 
 std::string written(OutputFormat format, std::span<const Report> made) {
@@ -149,7 +171,6 @@ Result<void> check_choices(const ReportRequest& wanted, std::span<const Variant>
 Result<ReportRequest> request_of(const ReportArguments& options) {
     auto base = request_of(options.choices);
     if (!base) return base.error();
-    base->variant.frame = options.frame;
     ReportRequest wanted{.base = *base};
     if (options.repeats) wanted.repeats = *options.repeats;
     else wanted.least_repeats = 3;
@@ -173,10 +194,10 @@ Result<ReportRequest> request_of(const ReportArguments& options) {
         if (limit.empty())
             return fail(Fault::usage, "options.malformed", "{option} takes relative:3%, not '{value}'", "--error", options.error);
     }
-    const auto error = parse_limit("--error", limit, '%', .01), within = parse_limit("--within", options.within, 'x', 1);
+    const auto error = parse_limit("--error", limit, "%", .01);
     if (!error) return error.error();
-    if (!within) return within.error();
-    wanted.question = {.error = *error, .within = *within};
+    wanted.question = {.error = *error};
+    if (const auto read = read_costs(options, wanted.question); !read) return read.error();
     const auto rows = variants(wanted);
     if (!rows) return rows.error();  // before a capture is opened
     if (const auto fits = check_choices(wanted, *rows); !fits) return fits.error();
@@ -213,25 +234,65 @@ Result<void> report_hard_cases(const ReportArguments& options) {
     });
 }
 
+/// The reports of a run of the verb.
+struct Measured {
+    std::vector<Report> reports;
+    std::size_t captures = 0;  ///< of which all frames are there
+    LeftOutNotes notes;
+};
+
+/// A report of each frame; fails as make_report() does.
+Result<void> measure_frames(Session& session, ReportRequest request, std::span<const std::size_t> frames, const std::string& name,
+                            Measured& measured) {
+    const Progress progress = progress_line();
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        if (frames.size() > 1) show_frame(progress, i, frames.size());
+        request.base.variant.frame = frames[i];
+        if (const auto told = measured.notes.tell(session, request.base); !told) return told;
+        auto report = make_report(session, request, progress);
+        if (!report) return report.error();
+        report->capture_name = name;
+        report->date = date_of_output();
+        measured.reports.push_back(*std::move(report));
+        if (!measured.reports.back().stopped.empty()) break;
+    }
+    return {};
+}
+
+/// Fails (over tolerance) where limits were asked for that nothing keeps.
+Result<void> check_answered(std::span<const Report> made) {
+    if (made.size() > 1) {
+        const Pool pool = pooled(made);
+        if (!is_unanswered(pool)) return {};
+        return fail(Fault::over_tolerance, "report.no_pooled_answer",
+                    "no technique keeps the limits that are asked for over {frames}", frames_text(pool));
+    }
+    const Report& only = made.front();
+    if (!is_unanswered(only)) return {};
+    if (changes_too_little(only))
+        return fail(Fault::over_tolerance, "report.too_few_pixels",
+                    "the stage changes fewer than {fewest} pixels of {capture}: too few for an answer", fewest_pixels,
+                    only.capture_name);
+    return fail(Fault::over_tolerance, "report.no_answer", "no technique on {capture} keeps the limits that are asked for",
+                only.capture_name);
+}
+
 Result<void> report(const ReportArguments& options, const CLI::App& app) {
     TableOutput output = options.output;
     output.may_be_page = !options.hard_cases;
     if (const auto fits = check_ending(output); !fits) return fits;
     const OutputFormat format = file_format(output, OutputFormat::text);
     if (options.hard_cases) {
-        const auto fits = check_not_given(
-            app,
-            {"--allow-partial", "--use", "--set", "--force", "--samples", "--stage", "--techniques", "--defaults", "--error",
-             "--error-at", "--metric", "--within", "--sweep", "--frame", "--repeats", "--minutes", "--flicker"},
-            "--hard-cases brings frames and settings of its own");
+        const auto fits = check_not_given(app,
+                                          {"--allow-partial", "--use", "--set", "--force", "--samples", "--stage", "--techniques",
+                                           "--defaults", "--error", "--error-at", "--metric", "--within", "--memory", "--cost",
+                                           "--sweep", "--frames", "--repeats", "--minutes", "--flicker"},
+                                          "--hard-cases brings frames and settings of its own");
         return fits ? report_hard_cases(options) : fits;
     }
     if (options.captures.empty())
         return fail(Fault::usage, "options.missing", "a {option} is required; --hard-cases builds frames and needs none",
                     "capture");
-    if (format == OutputFormat::html && options.captures.size() > 1)
-        return fail(Fault::usage, "report.page_of_one", "a page shows one capture, not {captures}; write one page for each",
-                    options.captures.size());
     const auto wanted = request_of(options);
     if (!wanted) return wanted.error();
     ReportRequest request = *wanted;
@@ -245,42 +306,33 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
         to_stderr("strata: {} of {}  {}: {} {}, {}\n", place, of, row_label, ranking.name,
                   ranking.text(ranking_metric(row).value), time);
     };
-    const Progress progress = progress_line();
     const StopAtSignal signal;
     const Deadline deadline(options.minutes, signal.token());
-    std::vector<Report> made;
-    LeftOutNotes notes;
+    Measured measured;
     for (const std::filesystem::path& capture : options.captures) {
         OpenOptions one = options.open;
         one.capture = capture;
         auto session = open(one);
         if (!session) return session.error();
-        if (const auto told = notes.tell(**session, request.base); !told) return told;
+        const auto frames = frame_indices(options.frames, (*session)->frame_count());
+        if (!frames) return frames.error();
+        if (format == OutputFormat::html && (frames->size() > 1 || options.captures.size() > 1))
+            return fail(Fault::usage, "report.page_of_one", "a page shows one frame, not several; write one page for each");
         (*session)->stop_when(deadline.token());
-        auto report = make_report(**session, request, progress);
-        if (!report && report.error().fault == Fault::stopped && !made.empty()) break;
-        if (!report && report.error().fault == Fault::stopped && !signal.token().stop_requested())
+        const auto done = measure_frames(**session, request, *frames, capture.filename().string(), measured);
+        if (!done && done.error().fault == Fault::stopped && !measured.reports.empty()) break;
+        if (!done && done.error().fault == Fault::stopped && !signal.token().stop_requested())
             return fail(Fault::usage, "report.no_row_in_time",
                         "no row was measured within {minutes} minutes; pass more --minutes", *options.minutes);
-        if (!report) return report.error();
-        report->capture_name = capture.filename().string();
-        report->date = date_of_output();
-        made.push_back(*std::move(report));
+        if (!done) return done.error();
+        measured.captures += 1;
         if (deadline.token().stop_requested()) break;
     }
+    const std::vector<Report>& made = measured.reports;
     const auto done = write(options, written(format, made));
     if (!done) return done;
-    if (made.back().stopped.empty() && made.size() == options.captures.size()) {
-        const auto open = std::ranges::find_if(made, is_unanswered);
-        if (open == made.end()) return done;
-        if (changes_too_little(*open))
-            return fail(Fault::over_tolerance, "report.too_few_pixels",
-                        "the stage changes fewer than {fewest} pixels of {capture}: too few for an answer", fewest_pixels,
-                        open->capture_name);
-        return fail(Fault::over_tolerance, "report.no_answer",
-                    "no technique on {capture} is within the limits of --error and --within", open->capture_name);
-    }
-    const std::string missing = made.back().stopped.empty() ? "stopped before the next capture" : made.back().stopped;
+    if (made.back().stopped.empty() && measured.captures == options.captures.size()) return check_answered(made);
+    const std::string missing = made.back().stopped.empty() ? "stopped before the next frame" : made.back().stopped;
     if (signal.token().stop_requested()) return fail(Fault::stopped, "session.stopped", "{progress}", missing);
     to_stderr("strata: {} minutes are over: {}\n", *options.minutes, missing);
     return done;
@@ -321,11 +373,19 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
                    "(relative), which a single bright sample can decide")
         ->check(one_of({"display", "relative"}));
     app.add_option("--within", options->within,
-                   "answer which technique is most accurate within this multiple of the baseline's time, like 2x");
+                   "answer which technique is most accurate within this multiple of the baseline's time, like 2x, or within this "
+                   "time, like 2ms");
+    app.add_option("--memory", options->memory,
+                   "answer which technique is most accurate in so much memory of its own, like 64MiB")
+        ->transform(CLI::AsSizeValue(/*kb_is_1000=*/false));
+    app.add_option("--cost", options->cost,
+                   "cost of which the answer has least: time (default), memory, or cycles:GPU, the time that shaders take on "
+                   "a GPU model that need not be there, like cycles:ps4 (strata isa lists them); --within then limits that");
     app.add_option("--sweep", options->sweeps,
                    "measure each value of a parameter, as key=a,b,c, instead of each technique's own settings; repeatable")
         ->allow_extra_args(false);
-    app.add_option("--frame", options->frame, "index of the frame, default 0");
+    app.add_option("--frames,--frame", options->frames,
+                   "indices of frames, like 0,4-8; default 0. Several are also pooled: of a capture the worst frame decides");
     app.add_option("--repeats", options->repeats,
                    "timed repeats of each row; default: 3, 1 where a row is far behind another, 7 where its rank is uncertain")
         ->check(from_to(1, 1000));

@@ -93,10 +93,7 @@ Result<void> check_options(const SpectraArguments& options, const CLI::App& app)
 
 Result<const GpuModel*> gpu_of(const SpectraArguments& options) {
     if (options.gpu_model.empty()) return nullptr;
-    const auto found = find_gpu_model(options.gpu_model);
-    if (found && (*found)->family.empty())
-        return fail(Fault::usage, "isa.model_not_in_radv", "RADV does not compile for {model}", options.gpu_model);
-    return found;
+    return find_compiled_gpu_model(options.gpu_model);
 }
 
 Result<void> spectra(const SpectraArguments& options) {

@@ -111,9 +111,7 @@ Result<std::string> find_radv(const char* const* environment) {
 Result<Compilation> compile_elsewhere(const std::vector<PipelineRequest>& requests, const CompileJob& job) {
     std::string drivers;
     if (job.model) {
-        if (job.model->family.empty())
-            return fail(Fault::usage, "isa.model_not_in_radv",
-                        "RADV does not compile for {model}; run on one and leave --gpu-model away", job.model->name);
+        if (const auto known = find_compiled_gpu_model(job.model->name); !known) return known.error();
         auto radv = find_radv(job.environment);
         if (!radv) return radv.error();
         drivers = *std::move(radv);

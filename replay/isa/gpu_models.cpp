@@ -104,6 +104,17 @@ Result<const GpuModel*> find_gpu_model(std::string_view name) {
                 name, did_you_mean(wanted, known));
 }
 
+Result<const GpuModel*> find_compiled_gpu_model(std::string_view name) {
+    const auto found = find_gpu_model(name);
+    if (found && (*found)->family.empty())
+        return fail(
+            Fault::usage, "isa.model_not_in_radv",
+            "RADV does not compile for {model}: run on one and name no GPU model, or name one that `strata isa` lists with "
+            "a family",
+            (*found)->name);
+    return found;
+}
+
 const GpuModel* gpu_model_of(std::string_view device_name) {
     const std::string device = lower(device_name);
     const auto names_it = [&](std::string_view part) { return !part.empty() && device.find(part) != std::string::npos; };

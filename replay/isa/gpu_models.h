@@ -37,6 +37,8 @@ struct GpuModel {
 std::span<const GpuModel> gpu_models();
 /// Fails (usage) with the nearest name. Capitals do not matter.
 Result<const GpuModel*> find_gpu_model(std::string_view name);
+/// The same of GPUs that RADV compiles for alone.
+Result<const GpuModel*> find_compiled_gpu_model(std::string_view name);
 /// The model of a device by what it calls itself; null for devices that are not in the table.
 const GpuModel* gpu_model_of(std::string_view device_name);
 

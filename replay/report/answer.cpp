@@ -1,33 +1,44 @@
 #include "replay/report/answer.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
+#include "replay/plural.h"
 #include "replay/tables/table.h"
 
 namespace strata {
 namespace {
 
-// What rounding in float leaves of an exact blend.
-constexpr double exact_below = 1e-4;
 // A time with a larger spread, as a share of it, is told apart from hardly any other: a busy machine, or too few repeats.
 constexpr double largest_spread = .25;
-// Rows as fast as the recommended one.
-constexpr std::size_t most_named = 3;
 
 bool keeps_error(const Standing& row, const Question& asked) { return row.error && (!asked.error || *row.error <= *asked.error); }
 
 bool keeps_time(const Standing& row, const Question& asked) {
-    return row.error && (!asked.within || row.time + row.spread <= *asked.within);
+    return row.error && (!asked.within || row.time + row.spread <= *asked.within) &&
+           (!asked.within_ms || row.ms + row.ms_spread <= *asked.within_ms);
 }
 
-bool keeps_all(const Standing& row, const Question& asked) { return keeps_error(row, asked) && keeps_time(row, asked); }
+bool keeps_memory(const Standing& row, const Question& asked) {
+    return row.error && (!asked.memory || row.bytes <= *asked.memory);
+}
+
+bool keeps_all(const Standing& row, const Question& asked) {
+    return keeps_error(row, asked) && keeps_time(row, asked) && keeps_memory(row, asked);
+}
 
 /// The factor by which a ranked row exceeds the limit that it exceeds most.
 double excess(const Standing& row, const Question& asked) {
-    const double error = asked.error ? *row.error / *asked.error : 0;
-    return std::max(error, asked.within ? (row.time + row.spread) / *asked.within : 0);
+    const auto factor = [](const std::optional<double>& limit, double value) { return limit ? value / *limit : 0; };
+    return std::max({factor(asked.error, *row.error), factor(asked.within, row.time + row.spread),
+                     factor(asked.within_ms, row.ms + row.ms_spread), factor(asked.memory, row.bytes)});
+}
+
+/// Whether two rows cost the same, as far as can be told.
+bool cost_the_same(const Standing& a, const Standing& b, Cost cost) {
+    return cost == &Standing::time ? are_level(a, b) : a.*cost == b.*cost;
 }
 
 /// The first row with the least value of those that are candidates.
@@ -39,23 +50,44 @@ std::optional<std::size_t> least(std::span<const Standing> rows, const Keeps& ke
     return best;
 }
 
-std::string metrics(const Standing& row, const AnswerNames& names) {
-    const std::string error = fmt::format("{} {}", names.error.name, names.error.text(*row.error));
-    const std::string time = names.unit.empty() ? "" : fmt::format(", {:.2f}x", row.time);
-    return fmt::format("{}{}, {} bytes per pixel", error, time, row.bytes_per_pixel);
+/// "1.5 MiB".
+std::string size_text(double bytes) {
+    constexpr std::array units{"bytes", "KiB", "MiB", "GiB"};
+    std::size_t unit = 0;
+    for (; bytes >= 1024 && unit + 1 < units.size(); ++unit) bytes /= 1024;
+    return fmt::format("{} {}", short_number(bytes), units[unit]);
+}
+
+/// The costs that are asked for, or that rows are compared by.
+std::string costs(const Standing& row, const Question& asked, const AnswerNames& names) {
+    std::string text;
+    if (!names.unit.empty()) text += fmt::format(", {:.2f}x", row.time);
+    if (asked.within_ms) text += fmt::format(", {} ms", short_number(row.ms));
+    return text + (asked.memory ? ", " + size_text(row.bytes) : fmt::format(", {} bytes per pixel", row.bytes_per_pixel));
 }
 
 std::string limits(const Question& asked, const AnswerNames& names) {
-    std::string text;
-    if (asked.error) text += fmt::format("{} up to {}", names.error.name, names.error.text(*asked.error));
-    if (asked.within) text += fmt::format("{}within {}x of {}", asked.error ? " " : "", short_number(*asked.within), names.unit);
-    return text;
+    std::vector<std::string> each;
+    if (asked.error) each.push_back(fmt::format("{} up to {}", names.error.name, names.error.text(*asked.error)));
+    if (asked.within) each.push_back(fmt::format("within {}x of {}", short_number(*asked.within), names.unit));
+    if (asked.within_ms) each.push_back(fmt::format("within {} ms", short_number(*asked.within_ms)));
+    if (asked.memory) each.push_back("in " + size_text(*asked.memory));
+    return fmt::format("{}", fmt::join(each, " "));
+}
+
+/// The number of quantities that are limited: error, time, memory.
+int limited(const Question& asked) {
+    return int(asked.error.has_value()) + int(asked.within || asked.within_ms) + int(asked.memory.has_value());
 }
 
 /// The limits that a row does not keep: "the limit of error", "both limits".
 std::string missed(const Standing& row, const Question& asked) {
-    const bool error = !keeps_error(row, asked), time = !keeps_time(row, asked);
-    return error && time ? "both limits" : error ? "the limit of error" : "the limit of time";
+    std::vector<std::string> which;
+    if (!keeps_error(row, asked)) which.emplace_back("error");
+    if (!keeps_time(row, asked)) which.emplace_back("time");
+    if (!keeps_memory(row, asked)) which.emplace_back("memory");
+    if (which.size() > 1 && int(which.size()) == limited(asked)) return which.size() == 2 ? "both limits" : "all three limits";
+    return fmt::format("the limit{} of {}", which.size() > 1 ? "s" : "", fmt::join(which, " and "));
 }
 
 /// Lines of an answer, each a sentence about a row.
@@ -67,7 +99,8 @@ public:
 
     std::vector<AnswerLine> lines() const {
         std::vector<AnswerLine> lines = answer_.recommended ? recommendation() : nearest();
-        lines.front().head = "answer for " + limits(asked_, names_);
+        lines.front().head = fmt::format("answer{} for ", names_.over) + limits(asked_, names_);
+        if (!names_.times_are.empty()) lines.insert(lines.begin(), {"", names_.times_are});
         const auto shown = answer_.recommended ? answer_.recommended : answer_.nearest;
         if (baseline_ && baseline_ != shown && rows_[*baseline_].error)
             lines.push_back({"", fmt::format("the baseline {} {}{}", row(*baseline_),
@@ -79,7 +112,11 @@ public:
     }
 
 private:
-    std::string row(std::size_t i) const { return fmt::format("{} ({})", names_.rows[i], metrics(rows_[i], names_)); }
+    std::string row(std::size_t i) const {
+        const std::string worst = i < names_.worst.size() ? " " + names_.worst[i] : "";
+        return fmt::format("{} ({} {}{}{})", names_.rows[i], names_.error.name, names_.error.text(*rows_[i].error), worst,
+                           costs(rows_[i], asked_, names_));
+    }
     std::string note() const { return names_.baseline_note.empty() ? "" : "; " + names_.baseline_note; }
 
     std::vector<AnswerLine> recommendation() const {
@@ -91,7 +128,8 @@ private:
                  ? fmt::format("keep the baseline {}{}{}", row(chosen),
                                *rows_[chosen].error < exact_below ? ": exact, nothing that shows is out of order" : "", note())
                  : "use " + row(chosen)});
-        if (!answer_.as_fast.empty()) lines.push_back({"as fast within the spread", as_fast()});
+        const bool is_of_time = asked_.cost == &Standing::time;
+        if (!answer_.as_cheap.empty()) lines.push_back({is_of_time ? "as fast within the spread" : "as small", as_cheap()});
         if (!answer_.unsteady.empty())
             lines.push_back({"", fmt::format("{} more may be as fast: the spread of their times is above {:g} %",
                                              answer_.unsteady.size(), 100 * largest_spread)});
@@ -104,16 +142,16 @@ private:
         return lines;
     }
 
-    std::string as_fast() const {
-        std::string text;
-        for (std::size_t i = 0; i < std::min(answer_.as_fast.size(), most_named); ++i)
-            text += (i == 0 ? "" : ", ") + row(answer_.as_fast[i]);
-        if (answer_.as_fast.size() > most_named) text += fmt::format(" and {} more", answer_.as_fast.size() - most_named);
-        return text;
+    std::string as_cheap() const {
+        std::vector<std::string> rows;
+        rows.reserve(answer_.as_cheap.size());
+        for (const std::size_t i : answer_.as_cheap) rows.push_back(row(i));
+        return first_of(rows);
     }
 
     std::vector<AnswerLine> nearest() const {
-        const std::string none = asked_.error && asked_.within ? "no technique keeps both" : "no technique keeps it";
+        constexpr std::array all_of{"it", "both", "all"};
+        const std::string none = fmt::format("no technique keeps {}", all_of[std::size_t(limited(asked_)) - 1]);
         if (!answer_.nearest) return {{"", none}};
         const std::size_t near = *answer_.nearest;
         return {{"", fmt::format("{}; the nearest, {}, misses {}", none, row(near), missed(rows_[near], asked_))}};
@@ -129,7 +167,7 @@ private:
 }  // namespace
 
 Answer find_answer(std::span<const Standing> rows, std::optional<std::size_t> baseline, const Question& asked) {
-    const auto time = [](const Standing& row) { return row.time; };
+    const auto cost = [&](const Standing& row) { return row.*asked.cost; };
     const auto error = [](const Standing& row) { return *row.error; };
     const auto keeps = [&](const Standing& row) { return keeps_all(row, asked); };
     Answer answer{.most_accurate = least(rows, keeps, error)};
@@ -140,15 +178,18 @@ Answer find_answer(std::span<const Standing> rows, std::optional<std::size_t> ba
         return answer;
     }
     const bool suffices = baseline && asked.error && keeps(rows[*baseline]);
-    answer.recommended = suffices ? baseline : asked.error ? least(rows, keeps, time) : answer.most_accurate;
+    answer.recommended = suffices ? baseline : asked.error ? least(rows, keeps, cost) : answer.most_accurate;
     const Standing& chosen = rows[*answer.recommended];
     answer.cheaper = least(
-        rows, [&](const Standing& row) { return row.error && row.time < chosen.time && !are_level(row, chosen); }, error);
+        rows,
+        [&](const Standing& row) { return row.error && cost(row) < cost(chosen) && !cost_the_same(row, chosen, asked.cost); },
+        error);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (i == *answer.recommended || !keeps(rows[i]) || !are_level(rows[i], chosen)) continue;
-        (rows[i].spread > largest_spread * rows[i].time ? answer.unsteady : answer.as_fast).push_back(i);
+        if (i == *answer.recommended || !keeps(rows[i]) || !cost_the_same(rows[i], chosen, asked.cost)) continue;
+        const bool is_unsteady = asked.cost == &Standing::time && rows[i].spread > largest_spread * rows[i].time;
+        (is_unsteady ? answer.unsteady : answer.as_cheap).push_back(i);
     }
-    std::ranges::stable_sort(answer.as_fast, {}, [&](std::size_t i) { return error(rows[i]); });
+    std::ranges::stable_sort(answer.as_cheap, {}, [&](std::size_t i) { return error(rows[i]); });
     return answer;
 }
 
@@ -156,11 +197,6 @@ std::vector<AnswerLine> answer_lines(std::span<const Standing> rows, std::option
                                      const AnswerNames& names) {
     if (asked.within && names.unit.empty()) return {{"answer", "none; the baseline's time could not be measured"}};
     return AnswerLines(rows, baseline, asked, names).lines();
-}
-
-std::string answer_text(std::span<const Standing> rows, std::optional<std::size_t> baseline, const Question& asked,
-                        const AnswerNames& names) {
-    return as_text(answer_lines(rows, baseline, asked, names));
 }
 
 std::string as_text(std::span<const AnswerLine> lines) {

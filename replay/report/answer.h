@@ -1,4 +1,4 @@
-// The answer to "which technique has less than 1 % error within 2x of the baseline's time?" No device.
+// The answer to "which technique has less than 1 % error within 2x of the baseline's time, or 2 ms, and 64 MiB?" No device.
 #pragma once
 
 #include <optional>
@@ -11,22 +11,26 @@
 
 namespace strata {
 
-/// What a row has to keep; without both there is no question.
+/// Limits that a row has to keep; without any there is no question.
 struct Question {
-    std::optional<double> error;   ///< largest error, a share: .01
-    std::optional<double> within;  ///< largest time in units of the baseline's
-    bool is_asked() const { return error || within; }
+    std::optional<double> error;      ///< largest error, a share: .01
+    std::optional<double> within;     ///< largest time in units of the baseline's
+    std::optional<double> within_ms;  ///< largest time in milliseconds
+    std::optional<double> memory;     ///< most bytes of the stage
+    Cost cost = &Standing::time;      ///< what the recommended row has least of
+    std::string gpu = {};             ///< times are modeled ones of this GPU (find_gpu_model()); empty: measured
+    bool is_asked() const { return error || within || within_ms || memory; }
 };
 
 /// Rows by index. The baseline takes part: who has it and is served by it needs no other technique.
 struct Answer {
-    /// Keeps all that is asked: the baseline if it keeps an error that is asked, else the fastest such row; where only a time is
+    /// Keeps all that is asked: the baseline if it keeps an error that is asked, else the cheapest such row; where no error is
     /// asked, the most accurate.
     std::optional<std::size_t> recommended;
     std::optional<std::size_t> most_accurate;  ///< of the rows that keep all
-    std::optional<std::size_t> cheaper;        ///< the most accurate of those that are faster than the recommended one
+    std::optional<std::size_t> cheaper;        ///< the most accurate of those that are cheaper than the recommended one
     std::optional<std::size_t> nearest;        ///< where no row keeps all: exceeds the limits by the least factor
-    std::vector<std::size_t> as_fast;          ///< keep all and are as fast as the recommended row within their spreads, by error
+    std::vector<std::size_t> as_cheap;         ///< keep all and cost as much as the recommended row, within spreads, by error
     std::vector<std::size_t> unsteady;  ///< of those, such as have a spread above a quarter of their time: they say nothing
 };
 Answer find_answer(std::span<const Standing>, std::optional<std::size_t> baseline, const Question&);
@@ -37,6 +41,9 @@ struct AnswerNames {
     RankingError error;
     std::string unit;                        ///< "alpha_blend"; empty: no time could be measured in units of it
     std::string baseline_note = {};          ///< what its time contains, or nothing
+    std::string times_are = {};              ///< whose they are, as a sentence; or nothing
+    std::string over = {};                   ///< " over 3 captures", where errors are of several frames
+    std::vector<std::string> worst = {};     ///< by row, behind its error: "in the mean, 17 % on b.strata"; or none
     std::vector<std::string> commands = {};  ///< by row: what replays it; or none
 };
 
@@ -49,8 +56,7 @@ struct AnswerLine {
 };
 std::vector<AnswerLine> answer_lines(std::span<const Standing>, std::optional<std::size_t> baseline, const Question&,
                                      const AnswerNames&);
-/// Those lines below each other.
-std::string answer_text(std::span<const Standing>, std::optional<std::size_t> baseline, const Question&, const AnswerNames&);
+/// The lines below each other.
 std::string as_text(std::span<const AnswerLine>);
 
 }  // namespace strata

@@ -55,20 +55,22 @@ ordered_json json_of_best(const std::vector<Row>& rows, const std::vector<Standi
     return json;
 }
 
-ordered_json json_of_answer(const Report& report) {
-    const Answer answer = answer_of(report);
+template <typename Rows>
+ordered_json json_of_answer(const Answer& answer, const Question& asked, const Rows& of) {
     const auto row = [&](std::optional<std::size_t> i) {
-        return i ? ordered_json{{"technique", report.rows[*i].technique}, {"settings", report.rows[*i].settings}}
-                 : ordered_json();
+        return i ? ordered_json{{"technique", of[*i].technique}, {"settings", of[*i].settings}} : ordered_json();
     };
     ordered_json json{{"error", nullptr}, {"within", nullptr}};
-    if (report.question.error) json["error"] = *report.question.error;
-    if (report.question.within) json["within"] = *report.question.within;
+    if (asked.error) json["error"] = *asked.error;
+    if (asked.within) json["within"] = *asked.within;
+    if (asked.within_ms) json["within_ms"] = *asked.within_ms;
+    if (asked.memory) json["memory"] = *asked.memory;
+    json["cost"] = asked.cost == &Standing::bytes_per_pixel ? "memory" : asked.gpu.empty() ? "time" : "cycles:" + asked.gpu;
     json["recommended"] = row(answer.recommended);
     json["most_accurate"] = row(answer.most_accurate);
     json["cheaper"] = row(answer.cheaper);
     json["nearest"] = row(answer.nearest);
-    for (const auto& [name, rows] : {std::pair("as_fast", &answer.as_fast), std::pair("unsteady", &answer.unsteady)}) {
+    for (const auto& [name, rows] : {std::pair("as_cheap", &answer.as_cheap), std::pair("unsteady", &answer.unsteady)}) {
         json[name] = ordered_json::array();
         for (const std::size_t i : *rows) json[name].push_back(row(i));
     }
@@ -111,7 +113,7 @@ ordered_json json_of(const Report& report) {
     json["rows"] = rows_of(report);
     if (!report.is_timed) return json;
     json["best_within"] = json_of_best(report.rows, standings(report.rows), report.time_unit);
-    if (report.question.is_asked()) json["answer"] = json_of_answer(report);
+    if (report.question.is_asked()) json["answer"] = json_of_answer(answer_of(report), report.question, report.rows);
     return json;
 }
 
@@ -123,12 +125,13 @@ std::string as_json(std::span<const Report> reports, const Pool& pool) {
     ordered_json json = document({.schema = "strata.reports", .date = reports.empty() ? "" : reports.front().date});
     json["stage"] = name(pool.stage);
     for (const Report& report : reports) json["reports"].push_back(json_of(report));
-    ordered_json& together = json["pooled"] = {{"captures", pool.captures},
-                                               {"mean", "geometric; arithmetic of bytes and of display rmse"},
-                                               {"error", pool.error.name},
-                                               {"time_unit", pool.time_unit},
-                                               {"rows", rows_json(sheet_of(pool))}};
+    ordered_json& together =
+        json["pooled"] = {{"captures", pool.captures},        {"frames", pool.frames},
+                          {"left_out", pool.left_out},        {"mean", "geometric; arithmetic of bytes and of display rmse"},
+                          {"error", pool.error.name},         {"time_unit", pool.time_unit},
+                          {"rows", rows_json(sheet_of(pool))}};
     together["best_within"] = json_of_best(pool.rows, standings(pool), pool.time_unit);
+    if (pool.question.is_asked()) together["answer"] = json_of_answer(answer_of(pool), pool.question, pool.rows);
     return json_text(json);
 }
 

@@ -17,12 +17,6 @@ namespace {
 constexpr std::string_view legend = "* nothing is both more accurate and faster, + nothing is both more accurate and smaller\n";
 constexpr std::string_view tie_legend = "= faster than a more accurate row, but by less than the spread of their times\n";
 
-/// The stage is named once, above the table.
-template <typename Row>
-std::string short_label(const Row& row) {
-    return below_stage(label(row.technique, row.settings));
-}
-
 /// What the marks of a table stand for.
 template <typename Row>
 std::string legends(const std::vector<Row>& rows) {
@@ -49,8 +43,9 @@ std::string best_rows(const std::vector<Row>& rows, const std::vector<Standing>&
     return text;
 }
 
-std::string answer_text(const Report& report) {
-    const auto lines = answer_lines(report);
+template <typename Made>
+std::string answer_text(const Made& made) {
+    const auto lines = answer_lines(made);
     return lines.empty() ? "" : "\n" + as_text(lines);
 }
 
@@ -174,21 +169,34 @@ std::string light_text(const Report& report) {
 
 }  // namespace
 
+std::string times_text(const Report& report) {
+    const Question& asked = report.question;
+    if (!asked.gpu.empty()) return fmt::format("times are modeled for {}: instructions alone, no memory, no blending", asked.gpu);
+    if (asked.cost != &Standing::time && !asked.within && !asked.within_ms) return {};
+    if (!report.device.software) return fmt::format("times are of {}", report.device.name);
+    return fmt::format("times are of {}, a CPU, and no GPU's: --cost cycles:GPU models one", report.device.driver);
+}
+
 std::vector<AnswerLine> answer_lines(const Report& report) {
     if (!report.question.is_asked()) return {};
     if (changes_too_little(report))
         return {{"answer", fmt::format("none; the stage changes fewer than {} pixels of this view", fewest_pixels)}};
-    AnswerNames names{.rows = {}, .error = ranking_error(report), .unit = below_stage(report.time_unit)};
+    const std::vector<Standing> rows = asked_standings(report);
+    const auto baseline = baseline_of(report);
+    const bool has_unit = report.question.gpu.empty() || (baseline && rows[*baseline].error);
+    AnswerNames names{.rows = {},
+                      .error = ranking_error(report),
+                      .unit = has_unit ? below_stage(report.time_unit) : "",
+                      .times_are = times_text(report)};
     for (const Measurement& row : report.rows) {
         names.rows.push_back(short_label(row));
         names.commands.push_back(command_of(report, row));
     }
-    const auto baseline = baseline_of(report);
-    if (baseline && report.rows[*baseline].sort_ms)
+    if (baseline && report.rows[*baseline].sort_ms && report.question.gpu.empty())
         names.baseline_note = fmt::format("its time contains {} ms in which the CPU sorts {} and {}",
                                           short_number(report.rows[*baseline].sort_ms->median),
                                           plural(report.sorted_objects, "object"), plural(report.sorted_particles, "particle"));
-    return answer_lines(standings(report.rows), baseline, report.question, names);
+    return answer_lines(rows, baseline, report.question, names);
 }
 
 std::string command_of(const Report& report, const Measurement& row) {
@@ -232,9 +240,15 @@ Page page_of(const Report& report) {
 }
 
 Page page_of(const Pool& pool) {
-    const char* means = pool.error.is_of_white ? "means of errors, geometric means of times" : "geometric means";
-    return {fmt::format("{} of {}: {}\n\n", name(pool.stage), plural(pool.captures, "capture"), means), sheet_of(pool),
-            "\n" + legends(pool.rows) + best_rows(pool.rows, standings(pool), pool.error, pool.time_unit)};
+    const std::string mean = pool.captures < 2 ? "" : pool.error.is_of_white ? "mean of " : "geometric mean of ";
+    const char* of_frames = pool.frames > pool.captures ? "the error of the worst frame" : "errors";
+    std::string head = fmt::format("{} of {}: {}{}{}, geometric mean of times\n", name(pool.stage), frames_text(pool), mean,
+                                   of_frames, mean.empty() || pool.frames == pool.captures ? "" : " of each");
+    if (!pool.left_out.empty())
+        head +=
+            fmt::format("left out, because the stage changes fewer than {} pixels: {}\n", fewest_pixels, first_of(pool.left_out));
+    return {head + "\n", sheet_of(pool),
+            "\n" + legends(pool.rows) + best_rows(pool.rows, standings(pool), pool.error, pool.time_unit) + answer_text(pool)};
 }
 
 Page page_of(std::span<const Report> reports, const Pool& pool) {

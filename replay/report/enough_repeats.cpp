@@ -24,7 +24,7 @@ std::vector<bool> uncertain_rows(std::span<const Standing> rows, const Question&
     std::vector<double> limits;
     for (const Budget& budget : budgets())
         if (budget.cost == &Standing::time) limits.push_back(budget.most);
-    if (question.within) limits.push_back(*question.within);
+    if (question.within && question.gpu.empty()) limits.push_back(*question.within);
     std::vector<bool> may_be_on_front;
     for (const Standing& row : rows)
         may_be_on_front.push_back(row.error &&

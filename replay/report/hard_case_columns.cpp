@@ -127,9 +127,7 @@ Sheet matrix_of(const HardCaseReport& report, std::size_t first_case, std::size_
         columns.push_back({{.key = key, .title = key, .help = std::string(hard_cases()[c].question), .shown = in_text},
                            [c](const HardCaseRow& row) { return matrix_cell(row.outcomes[c]); }});
     }
-    return sheet_of<HardCaseRow>(columns, report.rows, [](const HardCaseRow& row) {
-        return RowName{"", below_stage(label(row.technique, row.settings))};
-    });
+    return sheet_of<HardCaseRow>(columns, report.rows, [](const HardCaseRow& row) { return RowName{"", short_label(row)}; });
 }
 
 /// Smallest and largest share of the front card, of every row.
@@ -138,8 +136,8 @@ std::string share_lines(const HardCaseReport& report) {
     for (const HardCaseRow& row : report.rows)
         for (const HardCell& cell : cells_of(row))
             if (cell.outcome.shares)
-                text += fmt::format("   {:<28} {:.3f} to {:.3f}\n", below_stage(label(row.technique, row.settings)),
-                                    cell.outcome.shares->smallest, cell.outcome.shares->largest);
+                text += fmt::format("   {:<28} {:.3f} to {:.3f}\n", short_label(row), cell.outcome.shares->smallest,
+                                    cell.outcome.shares->largest);
     return text.empty() ? text
                         : "\nH3: smallest and largest share of the front card over 33 positions of the eye (exact: 1)\n" + text;
 }

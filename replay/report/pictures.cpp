@@ -1,67 +1,58 @@
 #include "replay/report/pictures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "capture_format/export/png.h"
 #include "capture_format/frame/frame.h"
-#include "passes/frame_images.h"
 #include "passes/reference/display_light.h"
 #include "passes/reference/textures.h"
 #include "passes/stages.h"
 #include "replay/images/image_io.h"
+#include "replay/session/light_unit.h"
 
 namespace strata {
 namespace {
 
 constexpr const char* frame_picture = "display";
 
-/// Linear display light, one color per pixel.
-struct DisplayPicture {
+/// A picture as sRGB encodes it, 0 to 1; each pixel is the mean of its samples. What is not finite shows as black.
+struct ShownPicture {
     std::uint32_t width = 0, height = 0;
     std::vector<glm::dvec3> pixels;
+    std::vector<std::array<std::byte, 3>> bytes;
 };
 
-DisplayPicture mean_of_samples(const ReferenceImage& image) {
-    DisplayPicture picture{.width = image.width, .height = image.height};
-    const std::size_t pixels = std::size_t(image.width) * image.height;
+ShownPicture shown_picture(const ReferenceImage& display) {
+    ShownPicture picture{.width = display.width, .height = display.height};
+    const std::size_t pixels = std::size_t(display.width) * display.height;
     picture.pixels.resize(pixels, glm::dvec3(0));
-    for (std::size_t i = 0; i < image.texels.size(); ++i) picture.pixels[i % pixels] += glm::dvec3(image.texels[i]);
-    for (glm::dvec3& pixel : picture.pixels) pixel /= double(image.layers);
+    for (std::size_t i = 0; i < display.texels.size(); ++i) picture.pixels[i % pixels] += glm::dvec3(display.texels[i]);
+    for (glm::dvec3& pixel : picture.pixels) {
+        pixel /= double(display.layers);
+        picture.bytes.push_back({display_byte(pixel.x), display_byte(pixel.y), display_byte(pixel.z)});
+        for (int c = 0; c < 3; ++c) pixel[c] = std::isfinite(pixel[c]) ? linear_to_srgb(std::clamp(pixel[c], 0., 1.)) : 0;
+    }
     return picture;
 }
 
-std::array<std::byte, 3> bytes_of(const glm::dvec3& pixel) {
-    return {display_byte(pixel.x), display_byte(pixel.y), display_byte(pixel.z)};
+std::vector<std::byte> png_of(const ShownPicture& picture) {
+    return encode_png(picture.width, picture.height, 3, std::as_bytes(std::span(picture.bytes)));
 }
 
-/// Of white; what is not finite shows as black, as in every picture.
-double distance_shown(const glm::dvec3& a, const glm::dvec3& b) {
-    double squares = 0;
-    for (int c = 0; c < 3; ++c) {
-        const auto shown = [](double light) { return std::isfinite(light) ? linear_to_srgb(std::clamp(light, 0., 1.)) : 0; };
-        squares += (shown(a[c]) - shown(b[c])) * (shown(a[c]) - shown(b[c]));
-    }
-    return std::sqrt(squares / 3);
-}
-
-std::vector<std::byte> png_of(const DisplayPicture& picture) {
-    std::vector<std::byte> rgb;
-    for (const glm::dvec3& pixel : picture.pixels) std::ranges::copy(bytes_of(pixel), std::back_inserter(rgb));
-    return encode_png(picture.width, picture.height, 3, rgb);
-}
-
-RowPicture row_picture(const DisplayPicture& row, const DisplayPicture& truth) {
+RowPicture row_picture(const ShownPicture& row, const ShownPicture& truth) {
     RowPicture made;
-    std::vector<std::byte> rgba;
+    double worst = 0;
+    std::vector<std::byte> rgba(4 * row.pixels.size());
     for (std::size_t i = 0; i < row.pixels.size(); ++i) {
-        const auto bytes = bytes_of(row.pixels[i]);
-        const bool shows_the_same = bytes == bytes_of(truth.pixels[i]);
-        for (const std::byte byte : bytes) rgba.push_back(shows_the_same ? std::byte{0} : byte);
-        rgba.push_back(shows_the_same ? std::byte{0} : std::byte{255});
-        const double off = distance_shown(row.pixels[i], truth.pixels[i]);
-        if (off <= made.worst) continue;
-        made.worst = off;
+        if (row.bytes[i] != truth.bytes[i]) {
+            std::ranges::copy(row.bytes[i], rgba.begin() + std::ptrdiff_t(4 * i));
+            rgba[4 * i + 3] = std::byte{255};
+        }
+        const double off = glm::distance(row.pixels[i], truth.pixels[i]);
+        if (off <= worst) continue;
+        worst = off;
         made.worst_x = std::uint32_t(i % row.width), made.worst_y = std::uint32_t(i / row.width);
     }
     made.png = encode_png(row.width, row.height, 4, rgba);
@@ -73,34 +64,32 @@ class Pictures {
 public:
     Pictures(Session& session, const ReportRequest& wanted, const Frame& frame) : session_(&session), frame_(&frame) {
         const std::string_view first = info(wanted.stage).outputs.front();
-        const FrameImageRow* row = find_frame_image(first);
-        const bool is_radiance = row && row->content == Content::radiance;
-        if (is_radiance && wanted.error_at == ErrorAt::stage) radiance_ = first;
+        if (holds_radiance(first) && wanted.error_at == ErrorAt::stage) radiance_ = first;
     }
 
     std::string image() const { return radiance_.empty() ? frame_picture : radiance_; }
 
-    Result<DisplayPicture> of(Request request) const {
+    Result<ShownPicture> of(Request request) const {
         request.outputs = {image()};
         return session_->run(request).and_then([&](auto& run) { return shown(in_double(run.images.at(image()))); });
     }
 
-    Result<DisplayPicture> of_truth(const Request& base, Stage stage, const RowTruth& truth) const {
-        if (truth.picture) return mean_of_samples(truth.picture->display);
+    Result<ShownPicture> of_truth(const Request& base, Stage stage, const RowTruth& truth) const {
+        if (truth.picture) return shown_picture(truth.picture->display);
         if (!radiance_.empty()) return shown(truth.truth.find(radiance_)->second);
         Request request = base;
         request.outputs = {frame_picture};
         if (std::ranges::count(info(stage).outputs, frame_picture) > 0)
-            return mean_of_samples(truth.truth.find(frame_picture)->second);
+            return shown_picture(truth.truth.find(frame_picture)->second);
         return session_->run_from(request, stage, truth.truth).and_then([](auto& run) {
-            return Result<DisplayPicture>(mean_of_samples(in_double(run.images.at(frame_picture))));
+            return Result<ShownPicture>(shown_picture(in_double(run.images.at(frame_picture))));
         });
     }
 
 private:
-    Result<DisplayPicture> shown(const ReferenceImage& image) const {
-        if (radiance_.empty()) return mean_of_samples(image);
-        return mean_of_samples(tone_mapped(image, double(frame_->view.exposure), double(frame_->film.white)));
+    Result<ShownPicture> shown(const ReferenceImage& image) const {
+        if (radiance_.empty()) return shown_picture(image);
+        return shown_picture(tone_mapped(image, double(frame_->view.exposure), double(frame_->film.white)));
     }
 
     Session* session_;
@@ -116,10 +105,12 @@ Result<void> add_pictures(Session& session, const ReportRequest& wanted, std::sp
     if (!frame) return frame.error();
     const Pictures pictures(session, wanted, *frame);
     const auto truth = pictures.of_truth(wanted.base, wanted.stage, truths.all.front());
+    // Later stages read more of the pass than images, which no truth has: culling, shadow maps.
+    if (!truth && truth.error().fault == Fault::usage) return {};
     if (!truth) return truth.error();
     report.truth_picture = png_of(*truth);
     for (std::size_t i = 0; i < report.rows.size(); ++i) {
-        if (report.rows[i].accuracy.technique_errors.empty() || truths.of_row[i] != 0) continue;
+        if (!report.rows[i].is_measured() || truths.of_row[i] != 0) continue;
         const auto row = pictures.of(all[i].request);
         if (!row) return row.error();
         report.rows[i].picture = row_picture(*row, *truth);

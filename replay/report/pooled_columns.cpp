@@ -25,19 +25,27 @@ ColumnsOfPool means(const Pool& pool) {
     return {
         {{.key = "ranking_error",
           .title = title_of(pool.error),
-          .help = "mean of the error that ranks rows, over the captures: arithmetic of display rmse, geometric of any other",
+          .help = "error that ranks rows: of each capture that of its worst frame; over captures the mean, which is geometric "
+                  "but of display rmse",
           .kind = kind_of(pool.error),
           .better = Better::less,
           .json = "/error"},
          [](const PooledRow& row) { return row.error; }},
         {{.key = "worst_error",
           .title = "worst",
-          .help = "largest of these errors",
+          .help = "largest error of a frame",
           .kind = kind_of(pool.error),
           .better = Better::less},
          [](const PooledRow& row) { return row.worst_error; }},
-        {{.key = "worst_capture", .title = "on", .help = "name of the capture with the largest error", .kind = CellKind::text},
-         [](const PooledRow& row) { return row.worst_capture; }},
+        {{.key = "worst_frame", .title = "on", .help = "capture and frame with the largest error", .kind = CellKind::text},
+         [](const PooledRow& row) { return row.worst_frame; }},
+        {{.key = "rms_error",
+          .title = "rms",
+          .help = "root mean square of display rmse over all pixels of the frames that the stage changes",
+          .kind = kind_of(pool.error),
+          .better = Better::less,
+          .if_any = true},
+         [](const PooledRow& row) { return cell_or_nothing(row.rms_error); }},
         {{.key = "time",
           .title = fmt::format("time, x {}", below_stage(pool.time_unit)),
           .help = "geometric mean of the multiples of the baseline's time",
@@ -55,32 +63,37 @@ ColumnsOfPool means(const Pool& pool) {
          [](const PooledRow& row) { return cell_or_nothing(row.flicker); }}};
 }
 
-ColumnsOfPool counts_of_pool(std::size_t captures) {
+ColumnsOfPool counts_of_pool(const Pool& pool) {
     const auto flag = [](std::string key, std::string help, bool PooledRow::*member) {
         return Column<PooledRow>{
             {.key = std::move(key), .title = "", .help = std::move(help), .kind = CellKind::flag, .shown = in_files},
             [member](const PooledRow& row) { return row.*member; }};
     };
-    const auto how_many = [captures](const PooledRow& row) { return fmt::format("{} of {}", row.captures, captures); };
-    return {
-        {{.key = "captures",
-          .title = "captures",
-          .help = "captures that the technique can do",
-          .kind = CellKind::count,
-          .shown = in_json},
-         [](const PooledRow& row) { return std::uint64_t{row.captures}; }},
-        {{.key = "captures_of_all",
-          .title = "captures",
-          .help = "captures that the technique can do",
-          .kind = CellKind::text,
-          .shown = in_text},
-         [=](const PooledRow& row) { return row.captures == captures ? std::string("all") : how_many(row); }},
-        flag("on_pareto_front", "no row is both more accurate and faster", &PooledRow::on_front),
-        flag("on_memory_front", "no row is both more accurate and smaller", &PooledRow::on_memory_front),
-        {{.key = "has_other_truth", .title = "", .help = "not ranked", .kind = CellKind::flag, .shown = in_json},
-         [](const PooledRow& row) { return row.has_other_truth ? CellValue(true) : CellValue(); }},
-        {{.key = "not_supported", .title = "", .help = "captures that it cannot do", .kind = CellKind::text, .shown = in_csv},
-         [=](const PooledRow& row) { return row.captures == captures ? CellValue() : CellValue(how_many(row) + " captures"); }}};
+    const std::size_t frames = pool.frames;
+    const char* counted = pool.frames > pool.captures ? "frames" : "captures";
+    const auto how_many = [frames](const PooledRow& row) { return fmt::format("{} of {}", row.frames, frames); };
+    return {{{.key = "frames",
+              .title = counted,
+              .help = "frames that the technique can do",
+              .kind = CellKind::count,
+              .shown = in_json},
+             [](const PooledRow& row) { return std::uint64_t{row.frames}; }},
+            {{.key = "frames_of_all",
+              .title = counted,
+              .help = "frames that the technique can do",
+              .kind = CellKind::text,
+              .shown = in_text},
+             [=](const PooledRow& row) { return row.frames == frames ? std::string("all") : how_many(row); }},
+            flag("on_pareto_front", "no row is both more accurate and faster", &PooledRow::on_front),
+            flag("on_memory_front", "no row is both more accurate and smaller", &PooledRow::on_memory_front),
+            {{.key = "has_other_truth", .title = "", .help = "not ranked", .kind = CellKind::flag, .shown = in_json},
+             [](const PooledRow& row) { return row.has_other_truth ? CellValue(true) : CellValue(); }},
+            {{.key = "not_supported",
+              .title = "",
+              .help = "frames that it can do, where these are not all",
+              .kind = CellKind::text,
+              .shown = in_csv},
+             [=](const PooledRow& row) { return row.frames == frames ? CellValue() : CellValue(how_many(row)); }}};
 }
 
 }  // namespace
@@ -88,10 +101,10 @@ ColumnsOfPool counts_of_pool(std::size_t captures) {
 Sheet sheet_of(const Pool& pool) {
     ColumnsOfPool columns = names_of_pool();
     std::ranges::move(means(pool), std::back_inserter(columns));
-    std::ranges::move(counts_of_pool(pool.captures), std::back_inserter(columns));
+    std::ranges::move(counts_of_pool(pool), std::back_inserter(columns));
     Sheet sheet = sheet_of<PooledRow>(columns, pool.rows, [](const PooledRow& row) {
         const char of_time = row.on_front ? '*' : row.has_other_truth ? 't' : ' ';
-        return RowName{{of_time, row.on_memory_front ? '+' : ' '}, below_stage(label(row.technique, row.settings))};
+        return RowName{{of_time, row.on_memory_front ? '+' : ' '}, short_label(row)};
     });
     sheet.heads_labels = fmt::format("{} and settings", name(pool.stage));
     sheet.of_every_row = {{"capture", "pooled"}};

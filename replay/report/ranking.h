@@ -8,6 +8,9 @@
 
 namespace strata {
 
+/// Errors below it, relative or of white, are what rounding in float leaves of an exact blend.
+inline constexpr double exact_below = 1e-4;
+
 /// The error that ranks rows, by its name: "display rmse touched".
 struct RankingError {
     std::string name;
@@ -18,9 +21,10 @@ struct RankingError {
 /// What a row is ranked by. Without an error it is not ranked: the technique cannot do the frame.
 struct Standing {
     std::optional<double> error;
-    double time = 0;             ///< in whatever unit all rows have
-    double spread = 0;           ///< of time: two times that differ by less than both spreads are equal
-    double bytes_per_pixel = 0;  ///< whole ones: the few bytes of a counter are no cost
+    double time = 0;                          ///< in whatever unit all rows have
+    double spread = 0;                        ///< of time: two times that differ by less than both spreads are equal
+    double bytes_per_pixel = 0;               ///< whole ones: the few bytes of a counter are no cost
+    double ms = 0, ms_spread = 0, bytes = 0;  ///< what limits that are no multiples are of
 };
 using Cost = double Standing::*;
 

@@ -13,6 +13,7 @@
 #include "passes/stages.h"
 #include "passes/technique.h"
 #include "replay/report/flicker.h"
+#include "replay/report/modeled_cost.h"
 #include "replay/report/pictures.h"
 #include "replay/report/row_maker.h"
 #include "replay/report/variants.h"
@@ -90,6 +91,19 @@ struct Shares {
     }
 };
 
+/// On the GPU that the question names.
+Result<void> add_modeled_costs(Session& session, const ReportRequest& wanted, Report& report, const Progress& progress) {
+    const auto model = find_compiled_gpu_model(wanted.question.gpu);
+    if (!model) return model.error();
+    for (std::size_t i = 0; i < report.rows.size(); ++i) {
+        if (progress) progress(fmt::format("cycles of {}", (*model)->name), double(i) / double(report.rows.size()));
+        auto cost = model_cost(session, wanted.base, report.rows[i], **model, "/proc/self/exe");
+        if (!cost) return cost.error();
+        report.rows[i].modeled = *std::move(cost);
+    }
+    return {};
+}
+
 /// Whose time may be the unit first, at its defaults before its other settings: each group has it beside its rows.
 void put_unit_first(std::vector<Variant>& rows) {
     std::ranges::stable_sort(
@@ -117,9 +131,29 @@ std::vector<Standing> standings(std::span<const Measurement> rows) {
     for (const Measurement& row : rows) {
         Standing standing{.time = row.time ? row.time->median : row.stage_ms.median,
                           .spread = row.time ? row.time->mad : row.stage_ms.mad,
-                          .bytes_per_pixel = std::round(row.bytes_per_pixel)};
-        if (!row.accuracy.technique_errors.empty() && !row.has_other_truth) standing.error = ranking_metric(row).value;
+                          .bytes_per_pixel = std::round(row.bytes_per_pixel),
+                          .ms = row.stage_ms.median,
+                          .ms_spread = row.stage_ms.mad,
+                          .bytes = double(row.stage_bytes)};
+        if (row.is_measured() && !row.has_other_truth) standing.error = ranking_metric(row).value;
         all.push_back(standing);
+    }
+    return all;
+}
+
+std::vector<Standing> asked_standings(const Report& report) {
+    std::vector<Standing> all = standings(report.rows);
+    if (report.question.gpu.empty()) return all;
+    const auto baseline = baseline_of(report);
+    const auto ms = [&](std::size_t row) {
+        return report.rows[row].modeled ? report.rows[row].modeled->ms : std::optional<double>();
+    };
+    const double unit = baseline ? ms(*baseline).value_or(0) : 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const auto modeled = ms(i);
+        if (!modeled) all[i].error.reset();
+        all[i].ms = modeled.value_or(HUGE_VAL), all[i].ms_spread = 0;
+        all[i].time = unit > 0 ? all[i].ms / unit : all[i].ms, all[i].spread = 0;
     }
     return all;
 }
@@ -145,7 +179,7 @@ bool is_unanswered(const Report& report) {
 }
 
 Answer answer_of(const Report& report) {
-    return changes_too_little(report) ? Answer() : find_answer(standings(report.rows), baseline_of(report), report.question);
+    return changes_too_little(report) ? Answer() : find_answer(asked_standings(report), baseline_of(report), report.question);
 }
 
 void mark_fronts(std::vector<Measurement>& rows) {
@@ -220,14 +254,15 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
             maker.time_again([&](std::string_view what, double done) { tell(what, 1 - shares.again * (1 - done)); });
         if (!again) return again.error();
     }
+    if (!wanted.question.gpu.empty() && report.stopped.empty())
+        if (const auto added = add_modeled_costs(session, wanted, report, progress); !added) return added.error();
     if (wanted.wants_pictures) {
         tell("pictures", 1);
         if (const auto added = add_pictures(session, wanted, *all, *row_truths, report); !added) return added.error();
     }
     if (report.is_timed) mark_fronts(report.rows);
     std::ranges::stable_sort(report.rows, {}, [](const Measurement& row) {
-        const bool is_measured = !row.accuracy.technique_errors.empty();
-        return std::tuple(!is_measured, row.has_other_truth, is_measured ? ranking_metric(row).value : 0);
+        return std::tuple(!row.is_measured(), row.has_other_truth, row.is_measured() ? ranking_metric(row).value : 0);
     });
     tell("done", 1);
     return report;

@@ -60,11 +60,16 @@ struct ReportRequest {
     std::function<void(const Measurement&, std::size_t, std::size_t)> on_row = {};
 };
 
-/// What a display shows of a row.
+/// A row as a display shows it.
 struct RowPicture {
     std::vector<std::byte> png;              ///< RGBA; what shows as the truth does is transparent
-    std::uint32_t worst_x = 0, worst_y = 0;  ///< the pixel that is furthest from the truth's
-    double worst = 0;                        ///< by how much, of white: root mean square over its colors
+    std::uint32_t worst_x = 0, worst_y = 0;  ///< the pixel that is furthest from the truth's, as sRGB encodes both
+};
+
+/// On a GPU that need not be there: modeled_cost.h.
+struct ModeledCost {
+    std::optional<double> kilocycles = {}, ms = {};  ///< of the whole GPU
+    std::string missing = {};                        ///< why there are none
 };
 
 /// One row.
@@ -90,7 +95,11 @@ struct Measurement {
     bool on_front = false;                   ///< nothing is both more accurate and faster
     bool is_tied = false;                    ///< the spreads alone keep it off the front: see ties_in_time()
     bool on_memory_front = false;            ///< nothing is both more accurate and smaller
+    std::optional<ModeledCost> modeled;      ///< where the question names a GPU
     std::optional<RowPicture> picture;       ///< ReportRequest::wants_pictures
+
+    /// Whether it has errors: it is supported, and a sample of it could be judged.
+    bool is_measured() const { return !accuracy.technique_errors.empty(); }
 };
 
 /// What rows are measured against.
@@ -119,7 +128,7 @@ struct Report {
     std::string skipped;                   ///< why the frame does not need the stage; then there are no rows
     std::string stopped;                   ///< what is missing because a stop was asked for: "stopped after 16 of 97 rows"
     bool is_timed = true;                  ///< false: stopped before any time was measured
-    std::vector<std::byte> truth_picture;  ///< PNG; empty: none was asked for
+    std::vector<std::byte> truth_picture;  ///< PNG; empty: none was asked for, or none can be made
     std::size_t sorted_objects = 0, sorted_particles = 0;  ///< of the frame, by techniques with Abilities::sorts_objects
 };
 
@@ -136,6 +145,9 @@ RankingError ranking_error(const Measurement&);
 /// The rows by their ranking figures; time in the time unit, or in milliseconds without one. Rows that are not ranked have no
 /// error.
 std::vector<Standing> standings(std::span<const Measurement>);
+/// The rows as the report's question sees them: where it names a GPU, with the times modeled for that, and without errors where
+/// there are none.
+std::vector<Standing> asked_standings(const Report&);
 /// The row whose time is 1, if it was measured.
 std::optional<std::size_t> baseline_of(const Report&);
 
@@ -145,9 +157,11 @@ Request request_of(const Measurement&, Request base);
 /// To its question; empty where the stage changes too few pixels.
 Answer answer_of(const Report&);
 
+/// The device whose times an answer rests on, as a sentence; nothing where it rests on none.
+std::string times_text(const Report&);
 /// The answer in words; none where nothing was asked.
 std::vector<AnswerLine> answer_lines(const Report&);
-/// What replays a row.
+/// The command that replays a row.
 std::string command_of(const Report&, const Measurement&);
 
 /// Whether limits were asked for that no row keeps, or of too little of a picture.

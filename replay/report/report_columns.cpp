@@ -224,8 +224,16 @@ ColumnsOfRows times(const Report& report) {
          [](const Row& row) { return cell_or_nothing(row.sort_ms); }}};
 }
 
-ColumnsOfRows costs() {
-    return {{{.key = "stage_bytes",
+ColumnsOfRows costs(const Report& report) {
+    return {{{.key = "modeled_kilocycles",
+              .title = fmt::format("kcycles {}", report.question.gpu),
+              .help = "thousands of cycles that shaders take on the GPU that `--cost` names, modeled: invocations times the "
+                      "throughput that its compiler states; no memory, no caches, no blending",
+              .better = Better::less,
+              .shown = in_files | in_text,
+              .if_any = true},
+             [](const Row& row) { return row.modeled ? cell_or_unknown(row.modeled->kilocycles) : CellValue(); }},
+            {{.key = "stage_bytes",
               .title = "bytes",
               .help = "memory of the images and buffers that the technique allocates",
               .kind = CellKind::count,
@@ -320,15 +328,14 @@ void add(ColumnsOfRows& all, ColumnsOfRows more) { std::ranges::move(more, std::
 RowName name_of_row(const Row& row) {
     const char of_time = row.on_front ? '*' : row.has_other_truth ? 't' : row.is_tied ? '=' : ' ';
     return {{of_time, row.on_memory_front ? '+' : ' '},
-            below_stage(label(row.technique, row.settings)),
+            short_label(row),
             row.accuracy.not_supported.empty() ? "" : "not supported: " + row.accuracy.not_supported};
 }
 
 }  // namespace
 
 const Measurement* first_measured(const Report& report) {
-    const auto row =
-        std::ranges::find_if(report.rows, [](const Measurement& each) { return !each.accuracy.technique_errors.empty(); });
+    const auto row = std::ranges::find_if(report.rows, [](const Measurement& each) { return each.is_measured(); });
     return row == report.rows.end() ? nullptr : &*row;
 }
 
@@ -350,7 +357,7 @@ Sheet sheet_of(const Report& report) {
     ColumnsOfRows columns = names(), timed = times(report);
     add(columns, errors(report));
     add(columns, implementation());
-    add(timed, costs());
+    add(timed, costs(report));
     add(timed, places());
     if (!report.is_timed)  // their zeros are not measured
         for (Column<Row>& column : timed) column.value = [](const Row&) { return CellValue(); };

@@ -19,6 +19,11 @@ struct Variant {
 std::string label(std::string_view technique, std::string_view settings);
 /// The same without the stage, where that is named once above all.
 std::string below_stage(std::string_view label);
+/// Names any row that has a technique and settings, without the stage: "weighted weight=w9".
+template <typename Row>
+std::string short_label(const Row& row) {
+    return below_stage(label(row.technique, row.settings));
+}
 
 /// "key=value ..." of the technique, or "name key=value ..." of another of its stage, which may not be on the list any more.
 Result<Variant> variant_of(const Technique&, std::string_view way, const Request& base);

@@ -23,12 +23,6 @@ constexpr double largest_clipped_share = .25;
 constexpr double least_agreement = .8;
 // A row of which the worst thousandth of the pixels has more of the squared error is off in a place, not everywhere.
 constexpr double largest_concentration = .5;
-// Of white: what rounding leaves of an exact blend lies somewhere.
-constexpr double smallest_error = 1e-4;
-// Rows that a sentence names.
-constexpr std::size_t most_named = 3;
-
-std::string label_of(const Measurement& row) { return below_stage(label(row.technique, row.settings)); }
 
 std::optional<double> value_of(const std::vector<Metric>& metrics, std::string_view name) {
     const auto found = std::ranges::find(metrics, name, &Metric::name);
@@ -58,13 +52,6 @@ std::size_t place(const std::vector<double>& values, std::size_t i) {
     return 1 + std::size_t(std::ranges::count_if(values, [&](double value) { return value < values[i]; }));
 }
 
-std::string names_of(const std::vector<const Measurement*>& rows) {
-    std::string text;
-    for (std::size_t i = 0; i < std::min(rows.size(), most_named); ++i) text += (i == 0 ? "" : ", ") + label_of(*rows[i]);
-    if (rows.size() > most_named) text += fmt::format(" and {} more", rows.size() - most_named);
-    return text;
-}
-
 void add_disagreement(const Report& report, std::vector<Warning>& warnings) {
     const BothFigures both = both_figures(report);
     const auto agreement = rank_agreement(both.display, both.relative);
@@ -79,21 +66,21 @@ void add_disagreement(const Report& report, std::vector<Warning>& warnings) {
          fmt::format(
              "display rmse and relative rmse order the rows differently (rank agreement {:.2f}): {} is number {} of {} by "
              "the one and number {} by the other",
-             *agreement, label_of(*both.rows[furthest]), place(both.display, furthest), both.rows.size(),
+             *agreement, short_label(*both.rows[furthest]), place(both.display, furthest), both.rows.size(),
              place(both.relative, furthest))});
 }
 
 void add_concentrated(const Report& report, std::vector<Warning>& warnings) {
-    std::vector<const Measurement*> rows;
+    std::vector<std::string> rows;
     for (const Measurement& row : report.rows) {
         const auto display = value_of(row.accuracy.touched, display_rmse);
         if (row.accuracy.footing && row.accuracy.footing->concentration > largest_concentration && display &&
-            *display > smallest_error)
-            rows.push_back(&row);
+            *display > exact_below)
+            rows.push_back(short_label(row));
     }
     if (rows.empty()) return;
     warnings.push_back({"concentrated", fmt::format("over half of the squared error is in the worst thousandth of the pixels: {}",
-                                                    names_of(rows))});
+                                                    first_of(rows))});
 }
 
 }  // namespace

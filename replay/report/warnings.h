@@ -1,4 +1,4 @@
-// What in a report keeps its errors from saying much of other views: few pixels, one bright sample, clipped light, metrics that
+// Warnings that the errors of a report say little of other views: few pixels, one bright sample, clipped light, metrics that
 // disagree, errors of a few pixels. No device.
 #pragma once
 

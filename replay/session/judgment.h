@@ -38,7 +38,7 @@ void leave_out_sides(const Frame&, std::uint32_t device_snap_steps, ImageSet&);
 /// that differ, undecided ones among them; nothing where no decided one does.
 std::optional<double> keep_touched(ReferenceImage&, const ReferenceImage* before);
 
-/// What display light says of it; no energy.
+/// The figures that display light gives; those of energy are 0.
 Footing footing_of(const DisplayError&);
 
 /// Multiplies what is radiance: metrics and the worst texel.

@@ -9,6 +9,7 @@
 #include "capture_format/srgb.h"
 #include "passes/stages.h"
 #include "passes/technique.h"
+#include "replay/report/variants.h"
 #include "replay/session/choice_text.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/errors.h"
@@ -177,7 +178,7 @@ TEST(CostPanel, SaysOfEverySettingWhatTheSessionMeasures) {
     const auto columns = columns_of(alone);
     for (std::size_t i = 0; i < alone.rows.size(); ++i) {
         if (!alone.rows[i].accuracy.not_supported.empty()) continue;
-        const std::string path = fmt::format("{}/table/{}/", panel, name_of(alone.rows[i]));
+        const std::string path = fmt::format("{}/table/{}/", panel, short_label(alone.rows[i]));
         for (const ReportColumn& each : columns)
             if (each.spreads.empty() && !each.is_detail) {
                 EXPECT_EQ(desk.said(path + each.head), cell_text(each, i)) << path << each.head;
@@ -194,7 +195,7 @@ TEST(CostPanel, AClickOnARowAppliesItInOneStepOfUndo) {
         return each.technique != before->name && each.accuracy.not_supported.empty();
     });
     ASSERT_NE(other, measured_alone().rows.end());
-    must(desk.player->click(fmt::format("{}/table/{}/apply", panel, name_of(*other))));
+    must(desk.player->click(fmt::format("{}/table/{}/apply", panel, short_label(*other))));
     must(desk.player->wait());
     EXPECT_EQ(desk.model().choices().at(measured_stage).technique->name, other->technique);
     EXPECT_EQ(row_of(measured_alone(), desk.model().choices().at(measured_stage)), other - measured_alone().rows.begin());

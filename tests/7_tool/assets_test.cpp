@@ -91,7 +91,8 @@ TEST_P(JudgedAsset, IsWhatTheModelOfEveryTechniqueSays) {
 TEST_P(ExhaustiveAsset, IsReportedWithinEveryTolerance) {
     const Finished report = strata("report scene.strata --repeats 1 --sweep pool=2 --json");
     ASSERT_EQ(report.code, 0) << report.err;
-    for (const json& row : json::parse(report.out)["rows"]) {
+    const json rows = json::parse(report.out)["rows"];
+    for (const json& row : rows) {
         if (row.contains("not_supported")) continue;
         const auto technique = find_technique(row["technique"].get<std::string>());
         ASSERT_TRUE(technique) << row.dump(2);

@@ -63,7 +63,8 @@ constexpr std::size_t version_at = 8, first_prefix = 16, stored_at = first_prefi
 /// The first section claims so many bytes, and its seal is right again. The directory is gone, or it would be believed.
 Bytes claiming(Bytes bytes, std::uint64_t stored) {
     bytes = overwritten(std::move(bytes), stored_at, stored);
-    bytes = overwritten(std::move(bytes), seal_at, XXH3_64bits(bytes.data() + first_prefix, 40));
+    const XXH64_hash_t seal = XXH3_64bits(bytes.data() + first_prefix, 40);
+    bytes = overwritten(std::move(bytes), seal_at, seal);
     bytes.resize(bytes.size() - 16);
     return bytes;
 }

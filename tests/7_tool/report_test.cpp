@@ -119,6 +119,11 @@ const std::vector<Standing> four_techniques = {{.error = 0, .time = 1},
                                                {.error = .02, .time = 1.1, .spread = .02},
                                                {.time = 0}};  // not supported
 
+std::string answer_text(std::span<const Standing> rows, std::optional<std::size_t> baseline, const Question& asked,
+                        const AnswerNames& names) {
+    return as_text(answer_lines(rows, baseline, asked, names));
+}
+
 TEST(Answers, AreTheFastestRowThatKeepsAllLimits) {
     const Answer answer = find_answer(four_techniques, {}, {.error = .01, .within = 2});
     EXPECT_EQ(answer.recommended, 0u);
@@ -128,7 +133,7 @@ TEST(Answers, AreTheFastestRowThatKeepsAllLimits) {
     const std::vector<Standing> inexact(four_techniques.begin() + 1, four_techniques.end());
     EXPECT_EQ(find_answer(inexact, {}, {.error = .01, .within = 3}).recommended, 1u);
     EXPECT_EQ(find_answer(inexact, {}, {.error = .01, .within = 3}).most_accurate, 0u);
-    EXPECT_EQ(find_answer(inexact, {}, {.error = .01, .within = 3}).as_fast, std::vector<std::size_t>{2});
+    EXPECT_EQ(find_answer(inexact, {}, {.error = .01, .within = 3}).as_cheap, std::vector<std::size_t>{2});
     EXPECT_EQ(find_answer(inexact, {}, {.error = .01, .within = 3}).cheaper, 3u);
     EXPECT_EQ(find_answer(inexact, {}, {.within = 2}).recommended, 1u) << "the most accurate where no error is asked";
 }
@@ -152,12 +157,65 @@ TEST(Answers, OfNoRowThatKeepsAllNameTheNearest) {
     EXPECT_EQ(find_answer(std::vector<Standing>{{.time = 1}}, {}, {.error = 1}).nearest, std::nullopt) << "not supported";
 }
 
+TEST(Answers, KeepLimitsInMillisecondsAndInBytes) {
+    const std::vector<Standing> rows = {
+        {.error = .001, .time = 1, .bytes_per_pixel = 0, .ms = 4, .ms_spread = .1, .bytes = 0},
+        {.error = .002, .time = .5, .bytes_per_pixel = 600, .ms = 2, .ms_spread = .2, .bytes = 6e6},
+        {.error = .003, .time = .4, .bytes_per_pixel = 64, .ms = 1.6, .ms_spread = .1, .bytes = 3 * 0x1p20},
+        {.error = .5, .time = .1, .bytes_per_pixel = 8, .ms = .4, .ms_spread = 0, .bytes = 8e4}};
+    EXPECT_EQ(find_answer(rows, 0, {.error = .01, .within_ms = 2.1}).recommended, 2u) << "2 +- .2 is not within 2.1";
+    EXPECT_EQ(find_answer(rows, 0, {.within_ms = 2.2}).recommended, 1u) << "the most accurate";
+    EXPECT_EQ(find_answer(rows, 0, {.within_ms = 2.2, .memory = 4e6}).recommended, 2u);
+    EXPECT_EQ(find_answer(rows, {}, {.error = .01}).recommended, 2u) << "the fastest";
+    EXPECT_EQ(find_answer(rows, {}, {.error = .01, .cost = &Standing::bytes_per_pixel}).recommended, 0u) << "the smallest";
+    const Answer smaller = find_answer(rows, 2, {.error = .01, .within_ms = 2.2, .cost = &Standing::bytes_per_pixel});
+    EXPECT_EQ(smaller.recommended, 2u);
+    EXPECT_EQ(smaller.cheaper, 0u) << "misses the limit of time, and is smaller";
+    const AnswerNames names{{"a", "b", "c", "d"}, {"rmse"}, "a"};
+    EXPECT_EQ(answer_text(rows, 0, {.error = .01, .within = 2, .within_ms = 2, .memory = 3 * 0x1p20}, names),
+              "answer for rmse up to 0.01 within 2x of a within 2 ms in 3 MiB: use c (rmse 0.003, 0.40x, 1.6 ms, 3 MiB)\n"
+              "cheaper: d (rmse 0.5, 0.10x, 0.4 ms, 78.1 KiB) misses the limit of error\n"
+              "the baseline a (rmse 0.001, 1.00x, 4 ms, 0 bytes) misses the limit of time\n");
+    EXPECT_THAT(
+        answer_text(rows, 0, {.error = 1e-4, .within_ms = .1, .memory = 10}, names),
+        HasSubstr("no technique keeps all; the nearest, a (rmse 0.001, 1.00x, 4 ms, 0 bytes), misses the limits of error and "
+                  "time\n"));
+    EXPECT_THAT(answer_text(std::span(rows).subspan(1, 1), {}, {.error = 1e-4, .within_ms = .1, .memory = 10}, names),
+                HasSubstr("misses all three limits"));
+}
+
+/// Times of a machine that has another GPU say nothing of one that is asked for.
+TEST(Answers, RestOnTheModeledTimesOfTheGpuThatTheyAreFor) {
+    Report report{.time_unit = "transparency/alpha_blend", .question = {.error = .1, .within = .5, .gpu = "ps4"}};
+    const std::pair<const char*, std::optional<double>> modeled[] = {
+        {"alpha_blend", .8}, {"moments", .32}, {"weighted", {}}, {"wavelet", .1}};
+    double error = .01, ms = 4;
+    for (const auto& [technique, cost] : modeled) {
+        report.rows.push_back(row(fmt::format("transparency/{}", technique), error *= 2, ms /= 2));
+        report.rows.back().modeled = ModeledCost{.kilocycles = cost, .ms = cost};
+    }
+    report.rows.back().accuracy.technique_errors.clear();
+    EXPECT_EQ(answer_of(report).recommended, 1u) << ".32 / .8; without a modeled time there is no answer";
+    EXPECT_THAT(as_text(answer_lines(report)),
+                AllOf(testing::StartsWith("times are modeled for ps4: instructions alone, no memory, no blending\n"),
+                      HasSubstr("use moments (rmse 0.04, 0.40x, ")));
+    report.question.gpu.clear();
+    EXPECT_EQ(answer_of(report).recommended, 2u) << "measured ones: .5 ms";
+    report.device = {.name = "A GPU"};
+    EXPECT_THAT(as_text(answer_lines(report)), testing::StartsWith("times are of A GPU\n"));
+    report.device.software = true;
+    EXPECT_THAT(as_text(answer_lines(report)), testing::StartsWith("times are of "));
+    EXPECT_THAT(as_text(answer_lines(report)), HasSubstr(", a CPU, and no GPU's: --cost cycles:GPU models one\n"));
+    report.question = {.error = .1, .cost = &Standing::bytes_per_pixel};
+    EXPECT_THAT(as_text(answer_lines(report)), testing::StartsWith("answer for ")) << "no time takes part";
+}
+
 TEST(Answers, SayWhereASpreadIsTooLargeToTellRowsApart) {
     const std::vector<Standing> rows = {{.error = .01, .time = 1.02, .spread = .02},
                                         {.error = .01, .time = 1.1, .spread = .1},
                                         {.error = .01, .time = 2.4, .spread = 1.4}};
     const Answer answer = find_answer(rows, {}, {.error = .02});
-    EXPECT_EQ(answer.as_fast, std::vector<std::size_t>{1});
+    EXPECT_EQ(answer.as_cheap, std::vector<std::size_t>{1});
     EXPECT_EQ(answer.unsteady, std::vector<std::size_t>{2});
     EXPECT_THAT(
         answer_text(rows, {}, {.error = .02}, {{"a", "b", "c"}, {"rmse"}, "a"}),
@@ -542,13 +600,83 @@ TEST(Pool, TakesTheMeanOfSharesOfWhiteAndNamesTheWorst) {
     const Pool pool = pooled(std::vector{report_on("a", {off_by(.01)}), report_on("b", {off_by(.17)})});
     EXPECT_DOUBLE_EQ(pool.rows[0].error, .09);
     EXPECT_DOUBLE_EQ(pool.rows[0].worst_error, .17);
-    EXPECT_EQ(pool.rows[0].worst_capture, "b");
+    EXPECT_EQ(pool.rows[0].worst_frame, "b");
     Measurement relative = off_by(.17);
     relative.ranked_by = RankedBy::relative_rmse;
     EXPECT_EQ(ranking_error(relative).name, "relative rmse");
     EXPECT_EQ(ranking_metric(relative).value, .5);
-    EXPECT_THAT(as_text(pool),
-                AllOf(HasSubstr("2 captures: means of errors, geometric means of times\n"), HasSubstr(" 17   b ")));
+    EXPECT_THAT(as_text(pool), AllOf(HasSubstr("2 captures: mean of errors, geometric mean of times\n"), HasSubstr(" 17   b ")));
+}
+
+/// A row off by a share of white over so many pixels.
+Measurement off_by_over(std::string technique, double error, double ms, std::size_t pixels) {
+    Measurement made = row(std::move(technique), error, ms);
+    made.accuracy.technique_errors = made.accuracy.touched = {{"display rmse", "of white", error}};
+    made.accuracy.touched_share = .5;
+    made.accuracy.footing = Footing{.pixels = pixels};
+    return made;
+}
+
+Report frame_of(const char* capture, std::size_t frame, std::vector<Measurement> rows) {
+    Report report = report_on(capture, std::move(rows));
+    report.frame = frame, report.base.variant.frame = frame;
+    report.time_unit = "transparency/alpha_blend";
+    return report;
+}
+
+/// A technique that is good in most frames of a walk and wrong in one is wrong.
+TEST(Pool, TakesTheWorstFrameOfACaptureAndTheMeanOverCaptures) {
+    const auto rows = [](double alpha, double weighted, std::size_t pixels) {
+        return std::vector{off_by_over("transparency/alpha_blend", alpha, 1, pixels),
+                           off_by_over("transparency/weighted", weighted, .5, pixels)};
+    };
+    std::vector<Report> reports = {frame_of("a", 0, rows(.03, .001, 3000)), frame_of("a", 1, rows(.02, .17, 1000)),
+                                   frame_of("a", 4, rows(.02, .001, 99))};
+    for (Report& report : reports) report.question = {.error = .04, .within = 1};
+    const Pool walk = pooled(reports);
+    EXPECT_EQ(walk.captures, 1u);
+    EXPECT_EQ(walk.frames, 2u);
+    EXPECT_EQ(walk.left_out, std::vector<std::string>{"a frame 4"}) << "under 100 pixels";
+    EXPECT_EQ(walk.rows[0].technique, "transparency/alpha_blend");
+    EXPECT_DOUBLE_EQ(walk.rows[0].error, .03);
+    EXPECT_DOUBLE_EQ(walk.rows[1].error, .17);
+    EXPECT_EQ(walk.rows[1].worst_frame, "a frame 1");
+    EXPECT_DOUBLE_EQ(*walk.rows[1].rms_error, std::sqrt((3000 * .001 * .001 + 1000 * .17 * .17) / 4000));
+    EXPECT_EQ(answer_of(walk).recommended, 0u);
+    EXPECT_THAT(as_text(walk),
+                AllOf(HasSubstr("transparency of 2 frames: the error of the worst frame, geometric mean of times\n"),
+                      HasSubstr("fewer than 100 pixels: a frame 4\n"),
+                      HasSubstr("answer over 2 frames for display rmse up to 4 % within 1x of alpha_blend: keep "
+                                "the baseline alpha_blend (display rmse 3 % on a frame 0, 1.00x, ")));
+    reports.push_back(frame_of("b", 0, rows(.01, .01, 1000)));
+    reports.back().question = reports.front().question;
+    const Pool both = pooled(reports);
+    EXPECT_EQ(both.captures, 2u);
+    EXPECT_DOUBLE_EQ(both.rows[0].error, (.03 + .01) / 2);
+    EXPECT_DOUBLE_EQ(both.rows[1].error, (.17 + .01) / 2);
+    EXPECT_THAT(as_text(both), HasSubstr("alpha_blend (display rmse 2 % in the mean, 3 % on a frame 0, 1.00x, "));
+    EXPECT_FALSE(is_unanswered(both));
+    for (Report& report : reports) report.question = {.error = .001};
+    EXPECT_TRUE(is_unanswered(pooled(reports)));
+}
+
+TEST(Pool, LimitsInMillisecondsAndBytesAreOfItsWorstFrame) {
+    std::vector<Report> reports;
+    for (const double ms : {1., 4.}) {
+        reports.push_back(frame_of(ms < 2 ? "a" : "b", 0, {off_by_over("transparency/alpha_blend", .01, ms, 1000)}));
+        reports.back().rows[0].stage_bytes = std::uint64_t(1000 * ms);
+        reports.back().question = {.within_ms = 3.9};
+    }
+    EXPECT_TRUE(is_unanswered(pooled(reports)));
+    for (Report& report : reports) report.question = {.within_ms = 4, .memory = 4000};
+    EXPECT_FALSE(is_unanswered(pooled(reports)));
+    for (Report& report : reports) report.question = {.memory = 3999};
+    EXPECT_TRUE(is_unanswered(pooled(reports)));
+    for (Report& report : reports) report.rows[0].accuracy.footing->pixels = 7;
+    EXPECT_TRUE(is_unanswered(pooled(reports)));
+    EXPECT_THAT(as_text(pooled(reports)), HasSubstr("answer: none; the stage changes fewer than 100 pixels of each frame\n"));
+    for (Report& report : reports) report.skipped = "nothing is transparent";
+    EXPECT_FALSE(is_unanswered(pooled(reports))) << "no frame needs the stage";
 }
 
 TEST(Pool, RanksOnlyWhatCanDoAllCapturesThatNeedTheStage) {
@@ -562,7 +690,7 @@ TEST(Pool, RanksOnlyWhatCanDoAllCapturesThatNeedTheStage) {
     ASSERT_EQ(pool.rows.size(), 2u);
     EXPECT_EQ(pool.rows[0].technique, "transparency/one");
     EXPECT_TRUE(pool.rows[0].on_front);
-    EXPECT_EQ(pool.rows[1].captures, 1u);
+    EXPECT_EQ(pool.rows[1].frames, 1u);
     EXPECT_FALSE(pool.rows[1].on_front);
     EXPECT_THAT(as_text(pool), HasSubstr("1 of 2"));
 }

@@ -123,7 +123,8 @@ TEST(List, ShowsWhatAScenariosFrameMustContain) {
                       HasSubstr("witness edges: edge_samples > 400 at 4 samples\n"),
                       HasSubstr("witness transparency packing=rgb10: overflowed > 10\n")));
     EXPECT_EQ(strata("list --scenarios --names").out.find("witness"), std::string::npos);
-    for (const json& scenario : json::parse(strata("list --scenarios --json").out)["scenarios"])
+    const json listed = json::parse(strata("list --scenarios --json").out);
+    for (const json& scenario : listed["scenarios"])
         EXPECT_EQ(scenario["witnesses"].size(), (*find_scenario(scenario["name"].get<std::string>()))->witnesses.size())
             << scenario["name"];
 }
@@ -385,13 +386,14 @@ TEST(Report, AnswersWhichTechniqueKeepsAnErrorAndATime) {
     EXPECT_EQ(report["answer"]["error"], .01);
     EXPECT_EQ(report["answer"]["recommended"]["technique"], "transparency/alpha_blend") << "exact here";
     EXPECT_EQ(report["answer"]["nearest"], nullptr);
-    for (const char* rows : {"as_fast", "unsteady"}) EXPECT_TRUE(report["answer"][rows].is_array()) << rows;
+    for (const char* rows : {"as_cheap", "unsteady"}) EXPECT_TRUE(report["answer"][rows].is_array()) << rows;
     EXPECT_THAT(strata(verb).out, HasSubstr(" up to 1 % within 1000x of alpha_blend: keep the baseline alpha_blend"));
     const Finished defaults = strata("report panes.strata --repeats 1 --defaults --csv");
     EXPECT_EQ(std::size_t(std::ranges::count(defaults.out, '\n')), 1 + techniques_of(Stage::transparency).size());
     for (const char* wrong :
          {"--techniques nothing", "--techniques 'weighted weight=w0'", "--techniques lighting/tiled", "--error nan", "--error 0",
           "--error 2", "--error relative:", "--techniques 'weighted weight=w7 weight=w8'", "--within -2x", "--within 2y",
+          "--within 2us", "--memory 0", "--cost cycles", "--cost cycles:nothing", "--cost cycles:h200", "--cost frames",
           "--defaults --techniques weighted"})
         EXPECT_EQ(strata(std::string("report panes.strata ") + wrong).code, 2) << wrong;
     const Finished open = strata("-v report panes.strata --repeats 1 --techniques weighted --error 1e-9% --within 1000x");
@@ -401,6 +403,32 @@ TEST(Report, AnswersWhichTechniqueKeepsAnErrorAndATime) {
         json::parse(strata("report panes.strata --repeats 1 --techniques weighted --error relative:90% --json").out);
     EXPECT_EQ(of_radiance["ranked_by"], "relative rmse touched");
     EXPECT_EQ(of_radiance["answer"]["error"], .9);
+    const Finished modeled = strata(
+        "-v report panes.strata --repeats 1 --techniques weighted --cost cycles:ps4 --within 1e-8ms --memory 64MiB --json");
+    EXPECT_THAT(modeled, Refuses(1, "report.no_answer"));
+    const json of_ps4 = json::parse(modeled.out);
+    for (const json& row : of_ps4["rows"]) EXPECT_GT(row["modeled_kilocycles"], .01) << row;
+    EXPECT_EQ(of_ps4["answer"]["cost"], "cycles:ps4");
+    EXPECT_EQ(of_ps4["answer"]["within_ms"], 1e-8);
+    EXPECT_EQ(of_ps4["answer"]["memory"], 64 * 0x1p20);
+}
+
+TEST(Report, OfSeveralFramesIsDecidedByTheWorst) {
+    ASSERT_EQ(strata("record three_panes -o walk.strata --size 64x36 --frames 3").code, 0);
+    const std::string verb = "report walk.strata --techniques weighted --repeats 1 --frames 0,2 --error ";
+    const json made = json::parse(strata(verb + "90% --json").out);
+    ASSERT_EQ(made["reports"].size(), 2u);
+    EXPECT_EQ(made["reports"][1]["frame"], 2);
+    EXPECT_EQ(made["pooled"]["captures"], 1);
+    EXPECT_EQ(made["pooled"]["frames"], 2);
+    EXPECT_EQ(made["pooled"]["answer"]["recommended"]["technique"], "transparency/alpha_blend");
+    double worst = 0;
+    for (const json& report : made["reports"])
+        for (const json& metric : report["rows"][1]["touched_error"])
+            if (metric["metric"] == "display rmse") worst = std::max(worst, metric["value"].get<double>());
+    EXPECT_EQ(made["pooled"]["rows"][1]["error"], worst);
+    EXPECT_THAT(strata("-v " + verb + "1e-9%"), Refuses(1, "report.no_pooled_answer", "frames=\"2 frames\""));
+    EXPECT_THAT(strata("-v report walk.strata --frame 3"), Refuses(2, "capture.no_frame"));
 }
 
 TEST(Report, FlickerIsNothingForWhatIsExactWhereverTheEyeGoes) {

@@ -28,7 +28,6 @@ const std::map<std::string, std::string> several_sentences = {
     {"frame.no_pixel", "of a picture and of a frame"},
     {"frame.unknown_image", "with and without a suggestion"},
     {"image.too_large", "an image, or a part of one"},
-    {"isa.model_not_in_radv", "what to do depends on the verb"},
     {"machine.out_of_memory", "what to do depends on the caller"},
     {"options.excluded", "with and without why"},
     {"options.malformed", "the form that is taken differs by option"},

@@ -1,10 +1,9 @@
-// What the rows of a report would cost on a GPU that need not be there: how often their shaders run, times what Mesa's compiler
-// for it says of their throughput (replay/isa).
+// A column of what the rows of a report would cost on a GPU that need not be there.
 #pragma once
 
 #include <filesystem>
 
-#include "replay/isa/gpu_models.h"
+#include "replay/report/modeled_cost.h"
 #include "ui/report/report_columns.h"
 
 namespace strata::ui {
@@ -13,7 +12,7 @@ struct ModeledRequest {
     Report report;
     Request base;  ///< of the report
     const GpuModel* model = nullptr;
-    std::filesystem::path program;  ///< this one, which has replay/isa's verb: it compiles in a process of its own
+    std::filesystem::path program;  ///< model_cost()'s
 };
 
 struct ModeledCosts {
@@ -21,11 +20,7 @@ struct ModeledCosts {
     std::vector<std::string> missing;  ///< why a row has none
 };
 
-/// GPUs that RADV compiles for, by name.
-std::vector<std::string_view> modeled_gpus();
-
-/// Plans, runs once and compiles each row that was measured; a row of which a shader is not counted or not compiled has no cost.
-/// Fails (device lacks) without RADV.
+/// The cost of each row that was measured. Fails (device lacks) without RADV.
 Result<ModeledCosts> model_costs(Session&, const ModeledRequest&, const strata::Progress&);
 
 }  // namespace strata::ui

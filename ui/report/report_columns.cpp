@@ -172,8 +172,6 @@ std::vector<std::size_t> sorted_rows(const ReportColumn& column, SortOrder order
 
 std::string cell_text(const ReportColumn& column, std::size_t row) { return column.texts[row]; }
 
-std::string name_of(const Measurement& row) { return below_stage(label(row.technique, row.settings)); }
-
 std::optional<PlotPoint> ReportPlot::point_of(std::size_t row) const {
     for (std::size_t s = 0; s < rows.size(); ++s)
         for (std::size_t p = 0; p < rows[s].size(); ++p)
@@ -205,10 +203,10 @@ std::vector<ReportRemark> remarks_of(const Report& report) {
     for (const Measurement& row : report.rows) {
         if (!is_measured(row)) unable[{row.technique, row.accuracy.not_supported}].push_back(&row);
         else if (std::string doubt = implementation_doubt(row); !doubt.empty())
-            remarks.push_back({name_of(row), std::move(doubt), true});
+            remarks.push_back({short_label(row), std::move(doubt), true});
     }
     for (const auto& [key, rows] : unable)
-        remarks.push_back({rows.size() == 1 ? name_of(*rows.front())
+        remarks.push_back({rows.size() == 1 ? short_label(*rows.front())
                                             : fmt::format("{} at {}", below_stage(key.first), plural(rows.size(), "setting")),
                            fmt::format("cannot do this frame: {}", key.second)});
     return remarks;

@@ -49,8 +49,6 @@ std::vector<std::size_t> sorted_rows(const ReportColumn&, SortOrder);
 
 /// "1.23 +- 0.04" in the signs of the screen; "-" for what was not measured.
 std::string cell_text(const ReportColumn&, std::size_t row);
-/// A row's technique and settings, without the stage.
-std::string name_of(const Measurement&);
 
 /// What a plot shows of a report, and which row each of its variants is.
 struct ReportPlot {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "replay/report/variants.h"
 #include "ui/window/theme.h"
 
 namespace strata::ui {
@@ -76,7 +77,7 @@ void ReportTable::draw_heads(Widgets& widgets, const Columns& columns, const Rep
 
 bool ReportTable::draw_row(Widgets& widgets, const Study& study, std::size_t row, const RowLook& look) {
     const Measurement& measured = study.report.rows[row];
-    const std::string name = name_of(measured);
+    const std::string name = short_label(measured);
     const auto scope = widgets.in(name);
     ImGui::TableNextColumn();
     widgets.text("front", look.on_front ? star : measured.has_other_truth ? "t" : " ", &palette().warning);

@@ -33,20 +33,21 @@ Image histogram(Graph& graph, FrameImages& frame, const Settings&) {
 }  // namespace
 
 std::vector<DebugView> edge_views() {
-    return {{.name = "surfaces",
-             .help = "number of different surfaces among a pixel's samples, told apart by their G-buffer words",
-             .unit = "surfaces",
-             .high = most_surfaces,
-             .declare = picture<shows_surfaces>},
-            {.name = "outcome",
-             .help = "marked pixels compared with the words of their samples; a step of depth alone, which depth_rebuilt and "
-                     "compact keep in no word, shows as no edge here and is one in reports",
-             .unit = "",
-             .declare = picture<shows_outcome>,
-             .colors = {{{0, 0.1f, 0.3f}, "plain: shaded once"},
-                        {{1, 1, 1}, "edge: shaded per sample"},
-                        {{1, 0, 0}, "missed: an edge shaded once"},
-                        {{1, 0.8f, 0}, "needless: plain, shaded per sample"}}}};
+    return {
+        {.name = "surfaces",
+         .help = "number of different surfaces among a pixel's samples, told apart by their G-buffer words",
+         .unit = "surfaces",
+         .high = most_surfaces,
+         .declare = picture<shows_surfaces>},
+        {.name = "outcome",
+         .help = "whether each pixel's mark is right by the G-buffer words of its samples; depth_rebuilt and compact store no "
+                 "depth in them, so a step of depth alone is an edge in reports and none here",
+         .unit = "",
+         .declare = picture<shows_outcome>,
+         .colors = {{{0, 0.1f, 0.3f}, "plain: shaded once"},
+                    {{1, 1, 1}, "edge: shaded per sample"},
+                    {{1, 0, 0}, "missed: an edge shaded once"},
+                    {{1, 0.8f, 0}, "needless: plain, shaded per sample"}}}};
 }
 
 std::vector<DebugTable> edge_tables() {

@@ -144,12 +144,12 @@ void resolve_sums(Graph& graph, FrameImages& images, const FunctionSums& sums) {
 }
 
 std::vector<Counter> function_counters() {
-    return {
-        counter<&FunctionCounters::drawn>({.name = "drawn", .help = "visible transparent fragments weighted and added"}),
-        counter<&FunctionCounters::scrubbed>(
-            {.name = "scrubbed", .help = "samples whose sums were NaN or infinite; expected: 0"}),
-        counter<&FunctionCounters::clamped>(
-            {.name = "clamped", .help = "fragments over 10,000 times as bright as exposed white, cut off there; expected: 0"})};
+    return {counter<&FunctionCounters::drawn>({.name = "drawn", .help = "visible transparent fragments weighted and added"}),
+            counter<&FunctionCounters::scrubbed>(
+                {.name = "scrubbed", .help = "samples whose sums were NaN or infinite; expected: 0"}),
+            counter<&FunctionCounters::clamped>(
+                {.name = "clamped",
+                 .help = "fragments brighter than 10,000 times white, whose light is cut off there; expected: 0"})};
 }
 
 std::vector<Counter> function_counters_with_lists() {

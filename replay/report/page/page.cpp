@@ -25,9 +25,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Of white: errors below it are not told apart, and a logarithmic axis ends.
-constexpr double smallest_told = 1e-4;
-constexpr std::string_view below_smallest = "under 0.01";
 constexpr std::string_view ranking_key = "ranking_error";
 
 std::string base64(std::span<const std::byte> bytes) {
@@ -43,15 +40,12 @@ std::string base64(std::span<const std::byte> bytes) {
 
 std::string png_uri(std::span<const std::byte> png) { return "data:image/png;base64," + base64(png); }
 
-std::string label_of(const Measurement& row) { return below_stage(label(row.technique, row.settings)); }
-
-bool is_measured(const Measurement& row) { return !row.accuracy.technique_errors.empty(); }
-
 /// "0.04 % of white, not seen"; another error than of white has no words.
 std::string error_words(const Measurement& row) {
     const Metric& metric = ranking_metric(row);
     if (!is_of_white(metric)) return fmt::format("{} {}", metric.name, short_number(metric.value));
-    const std::string percent = metric.value < smallest_told ? std::string(below_smallest) : short_number(100 * metric.value);
+    const std::string percent =
+        metric.value < exact_below ? fmt::format("under {:g}", 100 * exact_below) : short_number(100 * metric.value);
     return fmt::format("{} % of white, {}", percent, seen_as(metric.value).words);
 }
 
@@ -61,7 +55,7 @@ std::string time_words(const Report& report, const Measurement& row) {
     return short_number(row.stage_ms.median) + " ms";
 }
 
-/// What a page says of a report, part by part; each fills a place of page.html.
+/// The parts of a page; each fills a place of page.html.
 class HtmlPage {
 public:
     explicit HtmlPage(const Report& report) : report_(report), answer_(answer_of(report)), sheet_(sheet_of(report)) {
@@ -148,10 +142,10 @@ private:
         const std::string facts =
             fmt::format("{}{}{}", error_words(row), report_.is_timed ? ", at " : "", time_words(report_, row));
         if (!report_.question.is_asked())
-            return fmt::format("{} is the most accurate of {}: {}", label_of(row), plural(report_.rows.size(), "row"), facts);
+            return fmt::format("{} is the most accurate of {}: {}", short_label(row), plural(report_.rows.size(), "row"), facts);
         if (!answer_.recommended)
-            return fmt::format("No technique keeps the limits; {} is the nearest: {}", label_of(row), facts);
-        return fmt::format("{} {}: {}", shown_ == baseline_of(report_) ? "Keep" : "Use", label_of(row), facts);
+            return fmt::format("No technique keeps the limits; {} is the nearest: {}", short_label(row), facts);
+        return fmt::format("{} {}: {}", shown_ == baseline_of(report_) ? "Keep" : "Use", short_label(row), facts);
     }
 
     std::string notes() const {
@@ -185,7 +179,7 @@ private:
     std::string picture(std::size_t row) const {
         const bool is_there = has_picture_[row];
         return fmt::format("<div class=\"pic\" data-i=\"{}\">{}</div>", row,
-                           is_there ? fmt::format("<img alt=\"{}\" src=\"{}\">", escaped(label_of(report_.rows[row])),
+                           is_there ? fmt::format("<img alt=\"{}\" src=\"{}\">", escaped(short_label(report_.rows[row])),
                                                   png_uri(report_.rows[row].picture->png))
                                     : "<p>no picture: the page would be too large</p>");
     }
@@ -200,11 +194,11 @@ private:
             text += fmt::format(
                 "<figure class=\"js\"><div class=\"pic\" data-copy=\"{}\"></div><figcaption><b>{}</b><br>{}: {}"
                 "</figcaption></figure>\n",
-                row, head, escaped(label_of(report_.rows[row])), escaped(error_words(report_.rows[row])));
+                row, head, escaped(short_label(report_.rows[row])), escaped(error_words(report_.rows[row])));
         };
         add(*shown_, answer_.recommended ? "recommended" : answer_.nearest ? "nearest" : "most accurate");
         const auto baseline = baseline_of(report_);
-        if (baseline && baseline != shown_ && is_measured(report_.rows[*baseline])) add(*baseline, "baseline");
+        if (baseline && baseline != shown_ && report_.rows[*baseline].is_measured()) add(*baseline, "baseline");
         return text;
     }
 
@@ -270,13 +264,14 @@ private:
     ScatterPlot plot(std::size_t up, std::size_t across) const {
         ScatterPlot made{.x_title = axis_title(across), .y_title = axis_title(up)};
         const bool is_ranking = sheet_.columns[up].key == ranking_key, is_time = sheet_.columns[across].key == "time";
-        if (is_ranking && ranking_error(report_).is_of_white) made.y_floor = 100 * smallest_told, made.strip_title = "< 0.01";
+        if (is_ranking && ranking_error(report_).is_of_white)
+            made.y_floor = 100 * exact_below, made.strip_title = fmt::format("< {:g}", made.y_floor);
         if (is_ranking && report_.question.error) made.most_y = scaled(up, *report_.question.error);
         if (is_time && report_.question.within) made.most_x = report_.question.within;
         for (std::size_t i = 0; i < sheet_.rows.size(); ++i) {
             const auto x = cell_number(sheet_.rows[i].values[across]), y = cell_number(sheet_.rows[i].values[up]);
             if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y)) continue;
-            ScatterPoint point{.label = label_of(report_.rows[i]),
+            ScatterPoint point{.label = short_label(report_.rows[i]),
                                .place = i,
                                .kind = kinds_.at(report_.rows[i].technique),
                                .x = scaled(across, *x),
@@ -340,11 +335,13 @@ private:
     }
 
     std::string small_pictures() const {
+        if (report_.truth_picture.empty())
+            return "<p>no pictures: later stages read more of this stage than images that could show the truth</p>\n";
         std::string text;
         for (std::size_t i = 0; i < report_.rows.size(); ++i)
             if (report_.rows[i].picture)
                 text += fmt::format("<figure data-i=\"{}\">{}<figcaption>{}<b>{}</b><br>{}</figcaption></figure>\n", i,
-                                    picture(i), mark(report_.rows[i].technique), escaped(label_of(report_.rows[i])),
+                                    picture(i), mark(report_.rows[i].technique), escaped(short_label(report_.rows[i])),
                                     escaped(error_words(report_.rows[i])));
         return text;
     }
@@ -352,8 +349,8 @@ private:
     std::string left_out() const {
         std::string text;
         for (const Measurement& row : report_.rows)
-            if (!is_measured(row) && !row.accuracy.not_supported.empty())
-                text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(label_of(row)), escaped(row.accuracy.not_supported));
+            if (!row.is_measured() && !row.accuracy.not_supported.empty())
+                text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(short_label(row)), escaped(row.accuracy.not_supported));
         return text.empty() ? "" : "<h3>Not in the table</h3><dl>\n" + text + "</dl>\n";
     }
 
@@ -367,8 +364,8 @@ private:
         for (const SeenClass& one : seen_classes()) json["classes"].push_back({{"from", one.from}, {"words", one.words}});
         for (std::size_t i = 0; i < report_.rows.size(); ++i) {
             const Measurement& row = report_.rows[i];
-            ordered_json made{{"name", label_of(row)}, {"technique", row.technique}, {"front", row.on_front}};
-            if (is_measured(row)) {
+            ordered_json made{{"name", short_label(row)}, {"technique", row.technique}, {"front", row.on_front}};
+            if (row.is_measured()) {
                 made["says"] =
                     fmt::format("{}{}{}", error_words(row), report_.is_timed ? " \u00b7 " : "", time_words(report_, row));
                 made["command"] = command_of(report_, row);

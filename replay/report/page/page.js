@@ -14,8 +14,9 @@ function pixels(row) {
 }
 async function load(row) {
   const image = new Image(), shown = row < 0 ? null : $(`.sheet .pic[data-i="${row}"] img`);
-  image.src = row < 0 ? getComputedStyle(root).getPropertyValue('--truth').trim().replace(/^url\(["']?|["']?\)$/g, '') : shown ? shown.src : '';
-  if (!image.src.startsWith('data:')) return null;
+  const source = row < 0 ? getComputedStyle(root).getPropertyValue('--truth').trim().replace(/^url\(["']?|["']?\)$/g, '') : shown ? shown.src : '';
+  if (!source.startsWith('data:')) return null;
+  image.src = source;
   await image.decode();
   const canvas = document.createElement('canvas');
   canvas.width = wide; canvas.height = high;

@@ -15,7 +15,7 @@ namespace {
 
 // Pixels of the drawing and of its parts.
 constexpr double width = 720, height = 560, left = 58, top = 26, right = 12, foot = 44, strip = 36;
-// Of a label's text.
+// Size of a label's text, and of its widest letters.
 constexpr double text_size = 12, wide_letter = .58 * text_size, mark_radius = 6;
 
 struct TextBox {
@@ -38,12 +38,9 @@ public:
         if (low_ > high_) low_ = high_ = 1;
         low_ /= margin, high_ *= margin;
     }
-    /// Shows the value with room beside it.
-    void reach(const std::optional<double>& value) {
-        if (value && *value > floor_) low_ = std::min(low_, *value / 1.2), high_ = std::max(high_, *value * 1.2);
-    }
-    void hold(const std::optional<double>& value) {
-        if (value && *value > floor_) low_ = std::min(low_, *value), high_ = std::max(high_, *value);
+    /// Extends the axis to the value and, by a factor, beyond it.
+    void reach(const std::optional<double>& value, double beyond) {
+        if (value && *value > floor_) low_ = std::min(low_, *value / beyond), high_ = std::max(high_, *value * beyond);
     }
     double at(double value) const {
         if (value <= floor_) return below_;
@@ -127,8 +124,8 @@ public:
           x_(values(&ScatterPoint::x), 0, 1.15, left, width - right, left + 14),
           y_(values(&ScatterPoint::y), plot.y_floor, 1.35, bottom(), top, bottom() + strip / 2),
           labels_(left, top - 8, width - 2, bottom() + strip) {
-        x_.reach(plot.most_x), y_.reach(plot.most_y);
-        for (const ScatterPoint& point : plot.points) x_.hold(point.low_x), x_.hold(point.high_x);
+        x_.reach(plot.most_x, 1.2), y_.reach(plot.most_y, 1.2);
+        for (const ScatterPoint& point : plot.points) x_.reach(point.low_x, 1), x_.reach(point.high_x, 1);
     }
 
     std::string svg() {
