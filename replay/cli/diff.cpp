@@ -1,7 +1,10 @@
 // strata diff: two captures, two ways to replay one, two devices, a capture and images, or two images: what differs, where, by
 // how much.
+#include <array>
+#include <charconv>
 #include <limits>
 #include <memory>
+#include <set>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -14,6 +17,7 @@
 #include "replay/cli/table_output.h"
 #include "replay/cli/verb_options.h"
 #include "replay/difference/comparison.h"
+#include "replay/difference/page/difference_page.h"
 #include "replay/difference/picture.h"
 #include "replay/images/image_io.h"
 #include "replay/plural.h"
@@ -38,8 +42,9 @@ struct DiffArguments {
     TableOutput printed;
     std::string frames, rerun;
     ErrorLimits limits;
-    std::filesystem::path junit, folder;
-    const CLI::App* app = nullptr;  ///< what was given
+    std::vector<std::string> ignored;
+    std::filesystem::path junit, output;  ///< output: a folder for pictures, or a page
+    const CLI::App* app = nullptr;        ///< what was given
 };
 
 enum class FileKind { capture, exr, png };
@@ -63,16 +68,30 @@ Result<NamedImages> read_images(const std::filesystem::path& file, MemoryBudget&
     return images;
 }
 
-/// Writes the pictures of what differs and removes those of what no longer does.
+/// "transparency/weighted weight=w9".
+std::string asked_choices(const SideOptions& side) {
+    std::vector<std::string> asked = side.uses;
+    asked.insert(asked.end(), side.sets.begin(), side.sets.end());
+    return asked.empty() ? "as recorded" : fmt::format("{}", fmt::join(asked, " "));
+}
+
+/// Whether the output is a page, not a folder.
+bool is_page(const std::filesystem::path& output) { return output.extension() == ".html"; }
+
+/// Writes the pictures of what differs and removes those of what no longer does; or keeps them for a page.
 class Pictures {
 public:
     explicit Pictures(const DiffArguments& options) : options_(options) {}
 
     Result<void> see(std::size_t frame, const PassComparison& pass, const ImageComparison& made, const HostImage& a,
                      const HostImage& b) {
-        if (options_.folder.empty()) return {};
+        if (options_.output.empty()) return {};
+        if (is_page(options_.output)) {
+            of_page_.add(frame, pass, made, a, b);
+            return {};
+        }
         const std::string name = case_name(frame, pass, made);
-        const auto path = options_.folder / fmt::format("{}.{}.diff.png", options_.a.file.stem().string(), name);
+        const auto path = options_.output / fmt::format("{}.{}.diff.png", options_.a.file.stem().string(), name);
         if (made.verdict < Verdict::warning) {
             if (const auto free = check_not_kept(path); !free) return free;
             std::error_code problem;
@@ -96,20 +115,19 @@ public:
     }
 
     const std::map<std::string, std::string>& artifacts() const { return artifacts_; }
+    const PagePictures& of_page() const { return of_page_; }
 
 private:
     /// What a side is besides a pass that both sides run alike: its file, or what it was asked to use of the file that both have.
     std::string asked_of(const SideOptions& side) const {
         if (options_.a.file != options_.b.file) return side.file.filename().string();
-        std::vector<std::string> asked = side.uses;
-        asked.insert(asked.end(), side.sets.begin(), side.sets.end());
-        if (asked.empty()) asked.push_back("as recorded");
-        if (options_.a.gpu != options_.b.gpu) asked.push_back(side.gpu.empty() ? "on the default device" : "on " + side.gpu);
-        return fmt::format("{}", fmt::join(asked, " "));
+        const std::string device = side.gpu.empty() ? "on the default device" : "on " + side.gpu;
+        return asked_choices(side) + (options_.a.gpu != options_.b.gpu ? " " + device : "");
     }
 
     const DiffArguments& options_;
     std::map<std::string, std::string> artifacts_;
+    PagePictures of_page_;
 };
 
 SeeImages seeing(Pictures& pictures, std::size_t frame) {
@@ -133,8 +151,12 @@ Result<Request> request_of_side(const DiffArguments& options, const SideOptions&
 
 Side describe(const SideOptions& side, const Session& session) {
     const DeviceInfo& device = session.device();
-    return {side.file.filename().string(), session.capture_id(), device.name, device.driver + " " + device.driver_version,
-            device.cpu};
+    return {side.file.filename().string(),
+            session.capture_id(),
+            device.name,
+            device.driver + " " + device.driver_version,
+            device.cpu,
+            asked_choices(side)};
 }
 
 /// Both captures, or one capture two ways. One session serves both where file and device are the same.
@@ -286,6 +308,62 @@ Error over_tolerance(const Comparison& comparison) {
     return fail(Fault::over_tolerance, "diff.over_tolerance", "over tolerance");
 }
 
+/// "100,40,32x16".
+Result<PixelBox> box_of(const std::string& text) {
+    PixelBox box;
+    const std::array numbers{&box.x, &box.y, &box.width, &box.height};
+    constexpr std::string_view between = ",,x";
+    const char *at = text.data(), *end = at + text.size();
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const auto [next, problem] = std::from_chars(at, end, *numbers[i]);
+        const bool is_last = i + 1 == numbers.size();
+        if (problem != std::errc() || (is_last ? next != end : next == end || *next != between[i])) break;
+        if (is_last && box.width > 0 && box.height > 0) return box;
+        at = next + 1;
+    }
+    return fail(Fault::usage, "options.malformed", "{option} takes {form}, not '{value}'", "--ignore",
+                "X,Y,WIDTHxHEIGHT or a .png", text);
+}
+
+/// --ignore: boxes add up, and so do masks, which are of one size.
+Result<void> read_ignored(const DiffArguments& options, IgnoredPixels& ignored) {
+    MemoryBudget budget(options.device.memory_budget);
+    for (const std::string& text : options.ignored) {
+        if (kind_of(text) != FileKind::png) {
+            const auto box = box_of(text);
+            if (!box) return box.error();
+            ignored.boxes.push_back(*box);
+            continue;
+        }
+        const auto mask = read_png(text, budget);
+        if (!mask) return mask.error();
+        const Extent& extent = mask->shape.extent;
+        const std::size_t pixels = std::size_t(extent.width) * extent.height;
+        if (ignored.mask.empty()) {
+            ignored.mask_width = extent.width, ignored.mask_height = extent.height;
+            ignored.mask.resize(pixels);
+        }
+        if (ignored.mask_width != extent.width || ignored.mask_height != extent.height)
+            return fail(Fault::usage, "diff.masks_differ", "the masks of --ignore differ in size: {file} is {width} x {height}",
+                        text, extent.width, extent.height);
+        for (std::size_t i = 0; i < pixels; ++i)
+            if (texel(*mask, std::uint32_t(i % extent.width), std::uint32_t(i / extent.width)).x >= .5) ignored.mask[i] = true;
+    }
+    return {};
+}
+
+/// Fails where --images names one that was not compared.
+Result<void> check_images(const Comparison& comparison) {
+    std::set<std::string> compared;
+    for (const FrameComparison& frame : comparison.frames)
+        for (const PassComparison& pass : frame.passes)
+            for (const ImageComparison& image : pass.images) compared.insert(image.image);
+    for (const std::string& image : comparison.limits.images)
+        if (!compared.contains(image))
+            return fail(Fault::usage, "diff.no_such_image", "--images {image}: neither A nor B has an image of this name", image);
+    return {};
+}
+
 /// Whether something is said of B: the same two ways of replaying give the same, but a device may be compared with itself.
 bool has_a_side_b(const DiffArguments& options) {
     return !options.b.gpu.empty() || options.a.uses != options.b.uses || options.a.sets != options.b.sets ||
@@ -316,15 +394,19 @@ Result<void> check_options(const DiffArguments& options) {
 
 Result<void> diff(DiffArguments options) {
     if (options.b.file.empty()) options.b.file = options.a.file;
-    if (!options.folder.empty())
-        if (const auto made = make_folder(options.folder); !made) return made;
+    if (const auto read = read_ignored(options, options.limits.ignored); !read) return read;
+    if (!options.output.empty() && !is_page(options.output))
+        if (const auto made = make_folder(options.output); !made) return made;
     Pictures pictures(options);
     Comparison comparison{.limits = options.limits, .tool = fmt::format("strata {}", tool_revision), .rerun = options.rerun};
     if (const auto done = compare(options, pictures, comparison); !done) return done;
+    if (const auto known = check_images(comparison); !known) return known;
     comparison.date = date_of_output();
     write_stdout(in_format(printed_format(options.printed), comparison));
     if (!options.junit.empty())
         if (const auto done = write_whole_file(options.junit, as_junit(comparison, pictures.artifacts())); !done) return done;
+    if (is_page(options.output))
+        if (const auto done = write_whole_file(options.output, as_html(comparison, pictures.of_page())); !done) return done;
     return verdict(comparison) == Verdict::over ? Result<void>(over_tolerance(comparison)) : Result<void>();
 }
 
@@ -406,6 +488,14 @@ void add_limits(CLI::App& app, ErrorLimits& limits) {
                    "largest difference of depth images that still passes, in units in the last place (ULPs), default 0; integer "
                    "images must be equal")
         ->check(from_to(0, std::numeric_limits<std::uint32_t>::max()));
+    app.add_option(
+           "--region", limits.region,
+           "largest percentage of any 16 x 16 pixels above --limit that still passes: a small defect that --percent allows")
+        ->check(from_to(0, 100))
+        ->needs("--limit");
+    app.add_option("--images", limits.images, "images to compare, like display,color; default all")
+        ->delimiter(',')
+        ->allow_extra_args(false);
     app.add_option("--flip-limit", limits.flip_mean,
                    "largest mean FLIP of images of light, and largest mean difference of alpha where it is coverage; without "
                    "--limit, only these are checked for them")
@@ -419,10 +509,15 @@ std::function<Result<void>()> declare_diff(CLI::App& app) {
     const auto options = std::make_shared<DiffArguments>();
     add_sides(app, *options);
     add_limits(app, options->limits);
+    app.add_option("--ignore", options->ignored,
+                   "pixels that are not compared: a box as X,Y,WIDTHxHEIGHT, or a PNG that is white there; repeatable")
+        ->allow_extra_args(false);
     app.add_option("--junit", options->junit, "write JUnit XML to this file: one suite per frame, one case per pass and image")
         ->type_name(output_file);
-    app.add_option("-o,--output", options->folder,
-                   "write pictures of the differences to this folder; outdated ones in it are removed")
+    app.add_option(
+           "-o,--output", options->output,
+           "write pictures of the differences to this folder, outdated ones in it are removed; or, where it ends in .html, one "
+           "page with all of it")
         ->type_name(output_folder);
     add_formats(app, options->printed);
     return [options, &app] {

@@ -1,24 +1,9 @@
 // A comparison as JUnit's XML, which every CI system reads.
-#include "capture_format/clean_text.h"
 #include "replay/difference/comparison.h"
+#include "replay/markup_text.h"
 
 namespace strata {
 namespace {
-
-/// Text in an attribute or an element. XML 1.0 has no control characters and, as declared here, nothing but UTF-8; names of files
-/// may have either. In an attribute a line's end would be read as a space.
-std::string escaped(std::string_view text) {
-    std::string safe;
-    for (const char c : clean_text(text)) {
-        if (c == '&') safe += "&amp;";
-        else if (c == '<') safe += "&lt;";
-        else if (c == '>') safe += "&gt;";
-        else if (c == '"') safe += "&quot;";
-        else if (c == '\n') safe += "&#10;";
-        else safe += c;
-    }
-    return safe;
-}
 
 std::string case_xml(const PassComparison& pass, const ImageComparison& image, const std::string& artifacts) {
     std::string xml = fmt::format("    <testcase classname=\"{}\" name=\"{}\">\n", escaped(pass.label), escaped(image.image));

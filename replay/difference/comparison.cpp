@@ -29,6 +29,7 @@ Result<ImageComparison> compare_outputs(const std::string& image, const PassImag
 Result<PassComparison> compare_passes(const PassImages& a, const PassImages& b, const ErrorLimits& limits, const SeeImages& see) {
     PassComparison pass{a.label, a.choice, b.choice, {}};
     for (const auto& [image, of_a] : a.images) {
+        if (!limits.asks_for(image)) continue;
         if (!b.images.contains(image)) {
             pass.images.push_back(in_one_alone(image, "A"));
             continue;
@@ -40,7 +41,7 @@ Result<PassComparison> compare_passes(const PassImages& a, const PassImages& b, 
         pass.images.push_back(*std::move(made));
     }
     for (const auto& [image, of_b] : b.images)
-        if (!a.images.contains(image)) pass.images.push_back(in_one_alone(image, "B"));
+        if (!a.images.contains(image) && limits.asks_for(image)) pass.images.push_back(in_one_alone(image, "B"));
     return pass;
 }
 
@@ -110,20 +111,23 @@ Result<FrameComparison> compare_runs(const RunToCompare& a, const RunToCompare& 
     FrameComparison frame{.frame = a.request.variant.frame};
     // Passes stand in the order of the frame; a stage that only one frame needs is a pass without a partner.
     auto next = passes_b->begin();
+    const auto add_of_b_alone = [&](const PassImages& pass) {
+        if (limits.images.empty()) add(frame, {pass.label, "", pass.choice, {in_one_alone("every output", "B")}});
+    };
     for (const PassImages& of_a : *passes_a) {
         const auto partner =
             std::find_if(next, passes_b->end(), [&](const PassImages& of_b) { return of_b.label == of_a.label; });
         if (partner == passes_b->end()) {
-            add(frame, {of_a.label, of_a.choice, "", {in_one_alone("every output", "A")}});
+            if (limits.images.empty()) add(frame, {of_a.label, of_a.choice, "", {in_one_alone("every output", "A")}});
             continue;
         }
-        for (; next != partner; ++next) add(frame, {next->label, "", next->choice, {in_one_alone("every output", "B")}});
+        for (; next != partner; ++next) add_of_b_alone(*next);
         next = partner + 1;
         auto pass = compare_passes(of_a, *partner, limits, see);
         if (!pass) return pass.error();
         add(frame, *std::move(pass));
     }
-    for (; next != passes_b->end(); ++next) add(frame, {next->label, "", next->choice, {in_one_alone("every output", "B")}});
+    for (; next != passes_b->end(); ++next) add_of_b_alone(*next);
     if (const auto found = find_step(frame, *passes_a, a, b, limits); !found) return found.error();
     return frame;
 }
@@ -134,6 +138,7 @@ Result<FrameComparison> compare_image_sets(const NamedImages& a, const NamedImag
     PassComparison pass{.label = "images"};
     const bool single = a.size() == 1 && b.size() == 1;
     for (const auto& [image, of_a] : a) {
+        if (!limits.asks_for(image)) continue;
         const auto of_b = single ? b.begin() : b.find(image);
         if (of_b == b.end())
             return fail(Fault::usage, "difference.image_missing", "{side} has an image '{image}' and {other} has none", "A",
@@ -145,7 +150,7 @@ Result<FrameComparison> compare_image_sets(const NamedImages& a, const NamedImag
         pass.images.push_back(*std::move(made));
     }
     for (const auto& [image, of_b] : b)
-        if (!single && !a.contains(image))
+        if (!single && !a.contains(image) && limits.asks_for(image))
             return fail(Fault::usage, "difference.image_missing", "{side} has an image '{image}' and {other} has none", "B",
                         image, "A");
     add(frame, std::move(pass));

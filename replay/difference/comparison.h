@@ -36,6 +36,7 @@ struct FrameComparison {
 struct Side {
     std::string name;                          ///< of the file
     std::string capture, device, driver, cpu;  ///< empty for images
+    std::string asked = {};                    ///< techniques and settings that were asked for: "transparency/weighted"
 };
 
 struct Comparison {

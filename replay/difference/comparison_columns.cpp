@@ -158,23 +158,50 @@ ComparedColumns pixels_of_image() {
             {.key = std::move(key), .title = "", .help = std::move(help), .shown = in_files, .json = "/error/" + std::move(json)},
             [member](const ImageError& error) { return error.worst_pixel.*member; });
     };
+    const auto region = [](std::string key, std::string json, std::string help, std::uint32_t PixelBox::*member) {
+        return Column<ComparedImage>{{.key = std::move(key),
+                                      .title = "",
+                                      .help = std::move(help),
+                                      .kind = CellKind::count,
+                                      .shown = in_files,
+                                      .json = "/error/worst_region/" + std::move(json)},
+                                     [member](const ComparedImage& row) {
+                                         const auto& worst = row.image.error.region;
+                                         return worst ? CellValue(std::uint64_t{worst->box.*member}) : CellValue();
+                                     }};
+    };
     using Error = const ImageError&;
-    return {count("worst_x", "worst_pixel/x", "column of the worst pixel", [](Error error) { return error.worst_pixel.x; }),
-            count("worst_y", "worst_pixel/y", "its row", [](Error error) { return error.worst_pixel.y; }),
-            count("worst_layer", "worst_pixel/layer", "its layer", [](Error error) { return error.worst_pixel.layer; }),
-            count("worst_channel", "worst_pixel/channel", "its channel", [](Error error) { return error.worst_pixel.channel; }),
-            number("worst_a", "worst_pixel/a", "its value in A", &WorstPixel::a),
-            number("worst_b", "worst_pixel/b", "its value in B", &WorstPixel::b),
-            count("pixels", "pixels", "pixels", [](Error error) { return error.pixels; }),
-            count("pixels_over_limit", "pixels_over_limit", "pixels above --limit", [](Error error) { return error.over_limit; }),
-            count("pixels_over_warn_limit", "pixels_over_warn_limit", "pixels above --warn-limit",
-                  [](Error error) { return error.over_warn_limit; }),
-            count("nan_a", "nan/a", "NaN in A", [](Error error) { return error.in_a.nan; }),
-            count("nan_b", "nan/b", "NaN in B", [](Error error) { return error.in_b.nan; }),
-            count("inf_a", "inf/a", "infinities in A", [](Error error) { return error.in_a.inf; }),
-            count("inf_b", "inf/b", "infinities in B", [](Error error) { return error.in_b.inf; }),
-            count("not_finite_in_one_alone", "not_finite_in_one_alone", "values that are NaN or infinite in one alone",
-                  [](Error error) { return error.disagreeing; })};
+    return {
+        count("worst_x", "worst_pixel/x", "column of the worst pixel", [](Error error) { return error.worst_pixel.x; }),
+        count("worst_y", "worst_pixel/y", "its row", [](Error error) { return error.worst_pixel.y; }),
+        count("worst_layer", "worst_pixel/layer", "its layer", [](Error error) { return error.worst_pixel.layer; }),
+        count("worst_channel", "worst_pixel/channel", "its channel", [](Error error) { return error.worst_pixel.channel; }),
+        number("worst_a", "worst_pixel/a", "its value in A", &WorstPixel::a),
+        number("worst_b", "worst_pixel/b", "its value in B", &WorstPixel::b),
+        count("pixels", "pixels", "pixels", [](Error error) { return error.pixels; }),
+        count("pixels_ignored", "pixels_ignored", "pixels that --ignore leaves out", [](Error error) { return error.ignored; }),
+        region("region_x", "x", "column where the pixels above the limit that stand closest together begin", &PixelBox::x),
+        region("region_y", "y", "its row", &PixelBox::y),
+        region("region_width", "width", "its width", &PixelBox::width),
+        region("region_height", "height", "its height", &PixelBox::height),
+        {{.key = "region_density",
+          .title = "",
+          .help = "share of its pixels above the limit",
+          .kind = CellKind::share,
+          .shown = in_files,
+          .json = "/error/worst_region/density"},
+         [](const ComparedImage& row) {
+             return row.image.error.region ? CellValue(row.image.error.region->density) : CellValue();
+         }},
+        count("pixels_over_limit", "pixels_over_limit", "pixels above --limit", [](Error error) { return error.over_limit; }),
+        count("pixels_over_warn_limit", "pixels_over_warn_limit", "pixels above --warn-limit",
+              [](Error error) { return error.over_warn_limit; }),
+        count("nan_a", "nan/a", "NaN in A", [](Error error) { return error.in_a.nan; }),
+        count("nan_b", "nan/b", "NaN in B", [](Error error) { return error.in_b.nan; }),
+        count("inf_a", "inf/a", "infinities in A", [](Error error) { return error.in_a.inf; }),
+        count("inf_b", "inf/b", "infinities in B", [](Error error) { return error.in_b.inf; }),
+        count("not_finite_in_one_alone", "not_finite_in_one_alone", "values that are NaN or infinite in one alone",
+              [](Error error) { return error.disagreeing; })};
 }
 
 Sheet sheet_of_images(std::span<const ComparedImage> images) {
@@ -267,6 +294,10 @@ ordered_json json_of(const ErrorLimits& limits) {
     if (limits.hard_limit < ErrorLimits::none) json["hard_limit"] = limits.hard_limit;
     if (limits.warn_limit < ErrorLimits::none) json["warn"] = {{"limit", limits.warn_limit}, {"percent", limits.warn_percent}};
     if (limits.flip_mean) json["flip_mean"] = *limits.flip_mean;
+    if (limits.region) json["region_percent"] = *limits.region;
+    if (!limits.images.empty()) json["images"] = limits.images;
+    for (const PixelBox& box : limits.ignored.boxes) json["ignored"].push_back({box.x, box.y, box.width, box.height});
+    if (!limits.ignored.mask.empty()) json["ignored_by_mask"] = std::ranges::count(limits.ignored.mask, true);
     return json;
 }
 

@@ -141,7 +141,7 @@ std::string text_of(double value, int digits) {
 }
 
 struct Panel {
-    std::string label;
+    std::string key, label;
     ColorOf color;
     std::function<Rgb(double share)> legend = {};  ///< null: none
     std::string low = {}, high = {}, note = {};    ///< numbers at the ends of the legend, and what stands between them
@@ -187,13 +187,17 @@ void draw(Canvas& canvas, const Panel& panel, Box box, const Texels& size, const
 }
 
 /// Beyond an end of the legend values have the end's color, and the end says so.
-Panel image_panel(const std::string& label, const Texels& texels, const Range& range, const std::string& unit = "") {
+Panel image_panel(const std::string& key, const std::string& label, const Texels& texels, const Range& range,
+                  const std::string& unit = "") {
     const double step = (range.high - range.low) / 255;  // less is no other color
     const bool below = range.low - texels.least > step;
     const bool above = texels.most - range.high > step;
-    Panel panel{label, [&texels, range](std::size_t i) { return range.color(texels.values[i]); },
+    Panel panel{key,
+                label,
+                [&texels, range](std::size_t i) { return range.color(texels.values[i]); },
                 [range](double share) { return range.color(glm::dvec3(range.low + share * (range.high - range.low))); },
-                (below ? "<= " : "") + text_of(range.low, 3) + unit, (above ? ">= " : "") + text_of(range.high, 3) + unit};
+                (below ? "<= " : "") + text_of(range.low, 3) + unit,
+                (above ? ">= " : "") + text_of(range.high, 3) + unit};
     if (!range.middle) return panel;
     panel.note = text_of(*range.middle, 3);
     panel.note_at = (*range.middle - range.low) / (range.high - range.low);
@@ -201,7 +205,7 @@ Panel image_panel(const std::string& label, const Texels& texels, const Range& r
     return panel;
 }
 
-Panel difference_panel(const Texels& a, const Texels& b, const std::string& of) {
+Panel difference_panel(const std::string& key, const Texels& a, const Texels& b) {
     const double gain = gain_of(a, b);
     const std::uint32_t channels = a.channels;
     bool less = false, more = false;  // than the legend's ends, by what is another color
@@ -212,13 +216,15 @@ Panel difference_panel(const Texels& a, const Texels& b, const std::string& of) 
             less |= apart < -1 - 1 / 255.;
         }
     const std::string scaled = gain < 1 ? fmt::format("/ {:g}", 1 / gain) : fmt::format("x {:g}", gain);
-    return {fmt::format("{}{} {}", of, channels > 1 ? "abs(B - A)" : "B - A", scaled),
+    return {key,
+            fmt::format("{}{} {}", key == "alpha" ? "alpha: " : "", channels > 1 ? "abs(B - A)" : "B - A", scaled),
             [&a, &b, gain, channels](std::size_t i) { return difference_color(a.values[i], b.values[i], gain, channels); },
             [gain, channels](double share) {
                 const double v = channels > 1 ? share : 2 * share - 1;
                 return difference_color(glm::dvec3(0), glm::dvec3(v / gain), gain, channels);
             },
-            channels > 1 ? "0" : (less ? "<= " : "") + text_of(-1 / gain, 3), (more ? ">= " : "") + text_of(1 / gain, 3)};
+            channels > 1 ? "0" : (less ? "<= " : "") + text_of(-1 / gain, 3),
+            (more ? ">= " : "") + text_of(1 / gain, 3)};
 }
 
 /// Of a debug view from its lowest value on, of anything else as in a difference.
@@ -331,7 +337,7 @@ Canvas image_picture(std::string_view name, const HostImage& image, const std::s
     std::string label(name);
     if (image.shape.layers > 1 && !is_averaged) label += fmt::format(", layer 0 of {}", image.shape.layers);
     const int width = panel_width(shown);
-    Panel panel = image_panel(label, shown, range, unit);
+    Panel panel = image_panel("", label, shown, range, unit);
     if (!legend.colors.empty()) panel.legend = nullptr;
 
     const std::vector<std::string> titles = wrapped(title, width);
@@ -366,21 +372,63 @@ PlainPicture plain_picture(std::string_view name, const HostImage& image, const 
             range.middle ? fmt::format("{} is blue, {} red", low, high) : fmt::format("{} is black, {} white", low, high)};
 }
 
-Canvas difference_picture(const ImageComparison& made, const HostImage& a, const HostImage& b, const PictureTitles& titles) {
-    const std::uint32_t layer = made.error.worst_pixel.layer;
-    const Texels of_a = texels_of(made.image, a, layer), of_b = texels_of(made.image, b, layer);
-    const Range range = range_of(of_a, a.shape.format);
-    const Texels alpha_a = alpha_of(of_a), alpha_b = alpha_of(of_b);
-    std::vector<Panel> panels{image_panel("A  " + titles.a, of_a, range), image_panel("B  " + titles.b, of_b, range),
-                              difference_panel(of_a, of_b, "")};
-    panels.back().note =
-        fmt::format("rmse {:.3g}{}", made.error.rmse, made.error.disagreeing > 0 ? ", magenta: NaN or infinite" : "");
-    if (of_a.channels == 4 && alpha_a.values != alpha_b.values) panels.push_back(difference_panel(alpha_a, alpha_b, "alpha: "));
-    if (made.flip && !made.flip->map.empty()) {
-        Panel panel{"FLIP", [&made](std::size_t i) { return magma(double(made.flip->map[i])); }, magma, "0", "1"};
-        panel.note = fmt::format("mean {:.4f}", made.flip->mean);
-        panels.push_back(std::move(panel));
+namespace {
+
+/// What a difference shows. The panels refer to the texels.
+struct Difference {
+    Texels a, b, alpha_a, alpha_b;
+    std::vector<Panel> panels;
+
+    Difference(const ImageComparison& made, const HostImage& image_a, const HostImage& image_b, const PictureTitles& titles)
+        : a(texels_of(made.image, image_a, made.error.worst_pixel.layer)),
+          b(texels_of(made.image, image_b, made.error.worst_pixel.layer)),
+          alpha_a(alpha_of(a)),
+          alpha_b(alpha_of(b)) {
+        const Range range = range_of(a, image_a.shape.format);
+        panels.push_back(image_panel("a", "A  " + titles.a, a, range));
+        panels.push_back(image_panel("b", "B  " + titles.b, b, range));
+        panels.push_back(difference_panel("difference", a, b));
+        panels.back().note =
+            fmt::format("rmse {:.3g}{}", made.error.rmse, made.error.disagreeing > 0 ? ", magenta: NaN or infinite" : "");
+        if (a.channels == 4 && alpha_a.values != alpha_b.values) panels.push_back(difference_panel("alpha", alpha_a, alpha_b));
+        if (!made.flip || made.flip->map.empty()) return;
+        panels.push_back({"flip", "FLIP", [&made](std::size_t i) { return magma(double(made.flip->map[i])); }, magma, "0", "1"});
+        panels.back().note = fmt::format("mean {:.4f}", made.flip->mean);
     }
+    Difference(const Difference&) = delete;
+    Difference& operator=(const Difference&) = delete;
+};
+
+/// What the ends of a panel's legend stand for.
+std::string scale_words(const Panel& panel) {
+    if (panel.key == "flip") return "0 is black, 1 pale yellow";
+    const bool has_signs = !panel.legend(0).x && panel.legend(0).z > 0 && panel.legend(1).x > 0 && !panel.legend(1).z;
+    return has_signs ? fmt::format("{} is blue, {} red", panel.low, panel.high)
+                     : fmt::format("{} is black, {} white", panel.low, panel.high);
+}
+
+}  // namespace
+
+std::vector<PlainPanel> plain_panels(const ImageComparison& made, const HostImage& a, const HostImage& b) {
+    const Difference difference(made, a, b, {});
+    std::vector<PlainPanel> plain;
+    for (const Panel& panel : difference.panels) {
+        const int width = difference.a.width, height = difference.a.height;
+        Canvas canvas(width, height, paper);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                canvas.fill({x, y, 1, 1}, panel.color(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                                      static_cast<std::size_t>(x)));
+        plain.push_back(
+            {panel.key, panel.label.substr(0, panel.label.find_last_not_of(' ') + 1), scale_words(panel), std::move(canvas)});
+    }
+    return plain;
+}
+
+Canvas difference_picture(const ImageComparison& made, const HostImage& a, const HostImage& b, const PictureTitles& titles) {
+    const Difference difference(made, a, b, titles);
+    const Texels& of_a = difference.a;
+    const std::vector<Panel>& panels = difference.panels;
     // Four panels make two rows of two, three a row, and those of a narrow image a row however many they are.
     const bool is_narrow = of_a.height * zoom_of(of_a) > panel_width(of_a) * 3 / 2;
     const int columns = is_narrow ? static_cast<int>(panels.size()) : panels.size() == 4 ? 2 : 3;

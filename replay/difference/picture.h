@@ -53,4 +53,13 @@ PlainPicture plain_picture(std::string_view name, const HostImage&, const ImageL
 /// Samples of light are averaged; of anything else the layer of the worst pixel is shown. Small images are enlarged.
 Canvas difference_picture(const ImageComparison&, const HostImage& a, const HostImage& b, const PictureTitles&);
 
+/// The panels of difference_picture() alone, one pixel a texel.
+struct PlainPanel {
+    std::string key;    ///< "a", "b", "difference", "alpha", "flip"
+    std::string title;  ///< "abs(B - A) x 8"
+    std::string scale;  ///< "0 is black, 0.125 white"
+    Canvas canvas;
+};
+std::vector<PlainPanel> plain_panels(const ImageComparison&, const HostImage& a, const HostImage& b);
+
 }  // namespace strata

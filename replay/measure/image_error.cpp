@@ -111,9 +111,15 @@ ImageError image_error(const HostImage& a, const HostImage& b, const ErrorLimits
     const double limit = limit_of(kind, limits), warn_limit = kind == Kind::values ? limits.warn_limit : ErrorLimits::none;
     ErrorSums sums;
     double alpha = 0;
-    for (std::uint32_t layer = 0; layer < layers; ++layer)
+    std::vector<bool> is_over(std::size_t(extent.width) * extent.height);
+    for (std::uint32_t layer = 0; layer < layers; ++layer) {
+        is_over.assign(is_over.size(), false);
         for (std::uint32_t y = 0; y < extent.height; ++y)
             for (std::uint32_t x = 0; x < extent.width; ++x) {
+                if (limits.ignored.has(x, y)) {
+                    ++error.ignored;
+                    continue;
+                }
                 const glm::dvec4 p = texel(a, x, y, layer), q = texel(b, x, y, layer);
                 double worst = 0;
                 for (std::uint32_t channel = 0; channel < channels; ++channel) {
@@ -131,7 +137,13 @@ ImageError image_error(const HostImage& a, const HostImage& b, const ErrorLimits
                 }
                 error.over_limit += worst > limit;
                 error.over_warn_limit += worst > warn_limit;
+                is_over[std::size_t(y) * extent.width + x] = worst > limit;
             }
+        auto region = worst_region(is_over, extent.width, extent.height);
+        if (!region || (error.region && error.region->block_density >= region->block_density)) continue;
+        region->layer = layer;
+        error.region = region;
+    }
     constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     error.rmse = sums.values > 0 ? sums.rmse() : nothing;
     error.reference = sums.reference();

@@ -2,19 +2,36 @@
 // floats that lie between, integers by equality. rmse and relative rmse are those of a report (passes/error_sums.h).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "capture_format/result.h"
 #include "passes/frame_images.h"
 #include "replay/images/host_image.h"
 #include "replay/measure/flip.h"
+#include "replay/measure/worst_region.h"
 
 namespace strata {
+
+/// Pixels that are not compared: of images in which a clock, a cursor or noise stands.
+struct IgnoredPixels {
+    std::vector<PixelBox> boxes;  ///< in every image that is compared
+    std::vector<bool> mask;       ///< true: ignored; or none
+    std::uint32_t mask_width = 0, mask_height = 0;
+
+    bool is_empty() const { return boxes.empty() && mask.empty(); }
+    bool has(std::uint32_t x, std::uint32_t y) const {
+        for (const PixelBox& box : boxes)
+            if (box.has(x, y)) return true;
+        return !mask.empty() && mask[std::size_t(y) * mask_width + x];
+    }
+};
 
 /// What is allowed. The defaults allow no difference at all.
 struct ErrorLimits {
@@ -26,7 +43,11 @@ struct ErrorLimits {
     double warn_limit = none, warn_percent = 0;      ///< the same, for a warning
     std::uint32_t ulps = 0;                          ///< of depth: floats from one value to the other
     std::optional<double> flip_mean = std::nullopt;  ///< where there is FLIP
+    std::optional<double> region = std::nullopt;     ///< percentage of the pixels of a block (worst_region.h) over the limit
     FlipOptions flip = {};
+    IgnoredPixels ignored = {};
+    std::vector<std::string> images = {};  ///< names of those that are compared; empty: all
+    bool asks_for(std::string_view image) const { return images.empty() || std::ranges::count(images, image) > 0; }
 };
 
 /// The channel that differs most.
@@ -47,6 +68,8 @@ struct ImageError {
     double worst = 0;  ///< difference of values; of depth: in ULPs; infinite where one is not a number or not finite
     WorstPixel worst_pixel;
     std::uint64_t over_limit = 0, over_warn_limit = 0;  ///< pixels
+    std::optional<WorstRegion> region = std::nullopt;   ///< where those over the limit stand closest together
+    std::uint64_t ignored = 0;                          ///< pixels, of `pixels`
     struct Count {
         std::uint64_t nan = 0, inf = 0;
     } in_a, in_b;

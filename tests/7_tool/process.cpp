@@ -59,6 +59,8 @@ std::filesystem::path only_file(const std::filesystem::path& in, const std::stri
     return found.empty() ? std::filesystem::path() : found.front();
 }
 
+Finished shell(const std::string& line) { return run_line(line + " >stdout.txt 2>stderr.txt"); }
+
 Finished strata(const std::string& arguments) { return strata_after("true", arguments); }
 
 Finished strata_after(const std::string& line, const std::string& arguments) {

@@ -27,6 +27,9 @@ Finished strata_after(const std::string& line, const std::string& arguments);
 /// The same with other redirections than ">stdout.txt 2>stderr.txt", the files in which what it said is looked for.
 Finished strata_into(const std::string& redirections, const std::string& arguments);
 
+/// A line of the shell in that folder.
+Finished shell(const std::string& line);
+
 /// A program in the background, without a shell (whose children there ignore SIGINT); arguments are parted by spaces. What it
 /// prints goes to the file of the folder.
 pid_t start(const std::string& program, const std::string& arguments, const std::string& output = "/dev/null");

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "passes/stages.h"
+#include "replay/markup_text.h"
 #include "replay/page_parts.h"
 #include "replay/plural.h"
 #include "replay/report/page/scatter.h"
@@ -26,19 +27,6 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::string_view ranking_key = "ranking_error";
-
-std::string base64(std::span<const std::byte> bytes) {
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t three = 0;
-        for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (i + k < bytes.size() ? std::uint32_t(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? digits[three >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
-}
-
-std::string png_uri(std::span<const std::byte> png) { return "data:image/png;base64," + base64(png); }
 
 /// "0.04 % of white, not seen"; another error than of white has no words.
 std::string error_words(const Measurement& row) {
@@ -90,19 +78,6 @@ public:
     }
 
 private:
-    /// The template with its {{places}}.
-    static std::string filled(std::string_view text, const std::map<std::string_view, std::string>& parts) {
-        std::string made;
-        for (std::size_t at = 0;;) {
-            const std::size_t open = text.find("{{", at);
-            made += text.substr(at, open - at);
-            if (open == std::string_view::npos) return made;
-            const std::size_t close = text.find("}}", open);
-            made += parts.at(text.substr(open + 2, close - open - 2));
-            at = close + 2;
-        }
-    }
-
     /// Rows of the answer and of the front first, then by error, until the bytes are spent.
     void choose_pictures() {
         shown_ = answer_.recommended ? answer_.recommended : answer_.nearest;

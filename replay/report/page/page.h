@@ -7,10 +7,8 @@
 
 namespace strata {
 
-/// Pictures in a page take no more bytes than this; those of rows on the front and of the answer come first.
-inline constexpr std::size_t page_picture_bytes = 4'000'000;
-
-/// HTML. Of a report without pictures (ReportRequest::wants_pictures) it shows none.
+/// HTML. Of a report without pictures (ReportRequest::wants_pictures) it shows none; where there are more than
+/// page_picture_bytes, those of the answer and of rows on the front come first.
 std::string as_html(const Report&);
 
 }  // namespace strata

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "replay/markup_text.h"
 #include "replay/plural.h"
 #include "replay/tables/table.h"
 
@@ -254,28 +255,5 @@ std::string mark_path(std::size_t kind) {
 }
 
 std::string mark_class(std::size_t kind) { return fmt::format("c{}", kind % 8); }
-
-std::string escaped(std::string_view text) {
-    std::string safe;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                safe += "&amp;";
-                break;
-            case '<':
-                safe += "&lt;";
-                break;
-            case '>':
-                safe += "&gt;";
-                break;
-            case '"':
-                safe += "&quot;";
-                break;
-            default:
-                safe += c;
-        }
-    }
-    return safe;
-}
 
 }  // namespace strata

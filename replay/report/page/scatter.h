@@ -33,7 +33,4 @@ std::string as_svg(const ScatterPlot&);
 std::string mark_path(std::size_t kind);
 std::string mark_class(std::size_t kind);
 
-/// Text in HTML and SVG.
-std::string escaped(std::string_view);
-
 }  // namespace strata
