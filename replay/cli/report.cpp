@@ -1,7 +1,6 @@
 // strata report: error against time for every technique of a stage.
 #include <charconv>
 #include <chrono>
-#include <cmath>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
@@ -16,6 +15,7 @@
 #include "passes/technique.h"
 #include "replay/cli/given_options.h"
 #include "replay/cli/left_out.h"
+#include "replay/cli/limits.h"
 #include "replay/cli/table_output.h"
 #include "replay/cli/verb_options.h"
 #include "replay/isa/gpu_models.h"
@@ -85,23 +85,6 @@ Result<Sweep> parse_sweep(const std::string& text) {
         begin = end + 1;
     }
     return sweep;
-}
-
-/// A number above 0 with an optional unit at its end: "1%" is .01, "2x" is 2.
-Result<std::optional<double>> parse_limit(const char* option, std::string_view given, std::string_view unit, double factor) {
-    if (given.empty()) return std::optional<double>();
-    const bool has_unit = given.ends_with(unit);
-    const std::string_view text = given.substr(0, given.size() - (has_unit ? unit.size() : 0));
-    double value = 0;
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (problem != std::errc() || end != text.data() + text.size() || !(value > 0) || !std::isfinite(value))
-        return fail(Fault::usage, "options.malformed", "{option} takes a number above 0, like 2{unit}, not '{value}'", option,
-                    unit, given);
-    if (!has_unit && unit == "%" && value >= 1)
-        return fail(Fault::usage, "options.share_above_1",
-                    "{option} {value} is a limit of {percent} %; for a percentage, write % after the number", option, given,
-                    short_number(100 * value));
-    return std::optional(has_unit ? value * factor : value);
 }
 
 /// --cost and the limits of what rows cost.

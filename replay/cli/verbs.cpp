@@ -12,6 +12,7 @@ std::function<Result<void>()> declare_replay(CLI::App&);
 std::function<Result<void>()> declare_accept(CLI::App&);
 std::function<Result<void>()> declare_graph(CLI::App&);
 std::function<Result<void>()> declare_report(CLI::App&);
+std::function<Result<void>()> declare_compare(CLI::App&);
 std::function<Result<void>()> declare_bench(CLI::App&);
 std::function<Result<void>()> declare_spectra(CLI::App&);
 std::function<Result<void>()> declare_diff(CLI::App&);
@@ -31,6 +32,7 @@ std::span<const Verb> verbs() {
         {"accept", "store this replay's results as the capture's expected results", declare_accept},
         {"graph", "show the frame graph: steps, barriers, memory, and why stages are skipped", declare_graph},
         {"report", "measure error and time of every technique of a stage", declare_report},
+        {"compare", "compare two reports: cost at equal error, error at equal cost, row by row", declare_compare},
         {"bench", "measure the speed-ups that a technique's source claims, or what the device can do", declare_bench},
         {"spectra", "find the cheapest set of shader variants for the tiles of these frames", declare_spectra},
         {"diff", "compare two captures, settings, devices or images", declare_diff},

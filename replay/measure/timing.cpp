@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <vector>
 
 namespace strata {
-namespace {
 
 double median_of(std::vector<double> values) {
     const std::size_t middle = values.size() / 2;
     std::ranges::sort(values);
     return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
-
-}  // namespace
 
 Spread spread_of(std::span<const double> values) {
     if (values.empty()) return {};

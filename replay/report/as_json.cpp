@@ -27,6 +27,8 @@ void add_parts(ordered_json& json, const Measurement& row, bool is_timed) {
         {"image", worst.image},         {"x", worst.x}, {"y", worst.y}, {"layer", worst.layer}, {"got", texel(worst.got)},
         {"wanted", texel(worst.wanted)}};
     if (!is_timed) return;
+    json["repeats_ms"] = row.repeats_ms;
+    if (row.time) json["baseline_repeats_ms"] = row.baseline_repeats_ms;
     json["counters"] = ordered_json::object();
     for (const CounterRecord& counter : row.counters) json["counters"][counter.name] = counter.value;
 }
@@ -84,7 +86,8 @@ ordered_json json_of(const ReportTruth& truth) {
 }
 
 ordered_json json_of(const Report& report) {
-    ordered_json json = document({.schema = "strata.report",
+    ordered_json json = document({.schema = report_schema,
+                                  .version = report_schema_version,
                                   .date = report.date,
                                   .device = &report.device,
                                   .capture_id = report.capture_id,
@@ -122,7 +125,7 @@ ordered_json json_of(const Report& report) {
 std::string as_json(const Report& report) { return json_text(json_of(report)); }
 
 std::string as_json(std::span<const Report> reports, const Pool& pool) {
-    ordered_json json = document({.schema = "strata.reports", .date = reports.empty() ? "" : reports.front().date});
+    ordered_json json = document({.schema = pooled_reports_schema, .date = reports.empty() ? "" : reports.front().date});
     json["stage"] = name(pool.stage);
     for (const Report& report : reports) json["reports"].push_back(json_of(report));
     ordered_json& together =

@@ -84,8 +84,10 @@ struct Measurement {
     double tolerated_worst = HUGE_VAL;  ///< and for accuracy.model_worst
     ModelKind model_is = ModelKind::paper;
     Spread stage_ms, frame_ms;
-    std::optional<Spread> time;     ///< stage_ms as multiples of the time unit's, repeat by repeat
-    std::optional<Spread> sort_ms;  ///< of stage_ms: what the host sorts in every frame
+    std::optional<Spread> time;               ///< stage_ms as multiples of the time unit's, repeat by repeat
+    std::vector<double> repeats_ms;           ///< the stage's times, in the order of the repeats
+    std::vector<double> baseline_repeats_ms;  ///< the time unit's in the same repeats; empty where there is no `time`
+    std::optional<Spread> sort_ms;            ///< of stage_ms: what the host sorts in every frame
     std::uint64_t stage_bytes = 0;
     double bytes_per_pixel = 0;
     std::optional<std::uint64_t> invocations;  ///< of fragment and compute shaders, where the device counts them
@@ -179,6 +181,10 @@ bool is_nothing_compared(const Measurement&);
 
 /// Sentences about the light that a row's images could not hold, separated by "; ".
 std::string light_faults(const Measurement&);
+
+/// The document of one report as JSON.
+inline constexpr std::string_view report_schema = "strata.report", pooled_reports_schema = "strata.reports";
+inline constexpr int report_schema_version = 1;
 
 std::string as_text(const Report&);
 std::string as_json(const Report&);

@@ -86,7 +86,7 @@ ColumnsOfRows errors(const Report& report) {
                         .help = "error over the samples that the stage changes, where these are not all; rows are ranked by it",
                         .kind = kind_of(ranking_error(report)),
                         .better = Better::less,
-                        .shown = in_csv | (is_shown ? unsigned{in_text} : 0u)},
+                        .shown = in_files | (is_shown ? unsigned{in_text} : 0u)},
                        [](const Row& row) { return ranking_metric(row).value; }});
     columns.push_back(
         {{.key = "touched_share",

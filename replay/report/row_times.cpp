@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "passes/stages.h"
 #include "passes/technique.h"
 
 namespace strata {
@@ -47,7 +48,11 @@ void RowTimes::add_to(Measurement& measured, std::size_t index, const Report& re
     measured.stage_ms = spread_of(row.stage_ms);
     measured.frame_ms = spread_of(row.frame_ms);
     if (!row.sort_ms.empty()) measured.sort_ms = spread_of(row.sort_ms);
-    if (has_unit()) measured.time = ratio_of(row.stage_ms, row.unit_ms);
+    measured.repeats_ms = row.stage_ms;
+    if (has_unit()) {
+        measured.time = ratio_of(row.stage_ms, row.unit_ms);
+        measured.baseline_repeats_ms = row.unit_ms;
+    }
     measured.stage_bytes = row.bytes;
     measured.bytes_per_pixel = double(row.bytes) / (double(report.width) * report.height);
     measured.invocations = row.invocations;

@@ -7,6 +7,7 @@
 #include "passes/technique.h"
 #include "replay/bench/bench.h"
 #include "replay/bench/device_bench.h"
+#include "replay/compare/report_comparison.h"
 #include "replay/difference/comparison.h"
 #include "replay/isa/isa_columns.h"
 #include "replay/probe/probe_columns.h"
@@ -43,8 +44,8 @@ std::string section(const std::string& heading, const std::string& about, const 
 
 std::string whole_document() {
     std::string text =
-        "# Columns\n\nEvery verb that prints a table takes `--csv` and `--json`; `-o FILE` of `report`, `bench` and `spectra` "
-        "follows "
+        "# Columns\n\nEvery verb that prints a table takes `--csv` and `--json`; `-o FILE` of `report`, `compare`, `bench` "
+        "and `spectra` follows "
         "the file's ending\n(.json, .csv, .md, .txt). A key is the same in CSV and JSON unless the table says otherwise; a time "
         "with a spread has two columns of CSV,\n`KEY` and `KEY_mad`, and an object of JSON with `median`, `mad`, `low`, `high` "
         "and "
@@ -54,12 +55,21 @@ std::string whole_document() {
         "`SOURCE_DATE_EPOCH` fixes it), `program`, and `device`, `capture_id`, `capture_name`, `extent`,\n`samples` where it is "
         "of "
         "one. This file is written by a test from the same descriptions as the tables.\n\n";
-    text += section("strata report",
-                    "A row for each technique and its settings. JSON also has `technique_error` and `touched_error` "
-                    "(`metric`, `unit`, `value`), `counters`\nand the worst texel. In CSV the errors are columns by their names.",
-                    sheet_of(whole_report()));
+    text +=
+        section("strata report",
+                "A row for each technique and its settings. JSON also has `technique_error` and `touched_error` "
+                "(`metric`, `unit`, `value`), `counters`, the worst texel,\nand the times of the repeats: `repeats_ms` of the "
+                "stage, `baseline_repeats_ms` of the baseline in the same repeats. In CSV the errors are columns by their\n"
+                "names.",
+                sheet_of(whole_report()));
     text +=
         section("strata report of several captures: pooled", "CSV has these rows below those of the captures.", sheet_of(Pool()));
+    text += section(
+        "strata compare",
+        "A row for each row of both reports; with `--cost time` or `bytes_per_pixel` the keys `ms_a` and `ms_b` begin with "
+        "that name.\nIn JSON `rows`, with the `counters` that differ. JSON also has `at_equal_error` and `at_equal_cost` "
+        "(`ratio` of B to A, its 95 %\n`interval`, the range that it is `over`), both reports and their curves.",
+        sheet_of(ReportComparison()));
     text += section("strata report --hard-cases", "A row for each case of each technique; in JSON `cases` of `rows`.",
                     sheet_of(HardCaseReport()));
     text += section("strata bench", "A row for each ratio. JSON also has `steps`, `extent` and the `counters` of both variants.",

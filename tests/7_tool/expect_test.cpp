@@ -8,6 +8,7 @@
 #include "capture_format/reader.h"
 #include "capture_format/recorder.h"
 #include "passes/registry.h"
+#include "passes/technique.h"
 #include "replay/expectations/expectation_keys.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/file_text.h"

@@ -10,6 +10,7 @@ constexpr FileVerb table[] = {
     {"accept", "accept", "", ".strata", false},
     {"graph", "graph", "", ".strata", true},
     {"report", "report", "--repeats 1 --sweep pool=2 -o report.txt", ".strata", true},
+    {"compare", "compare", "bad.json", ".json", false},
     {"bench", "bench voxel", "--repeats 1 --only two -o bench.json", ".strata", true},
     {"spectra", "spectra", "--modes 3 -o spectra.json", ".strata", true},
     {"diff", "diff", "--use transparency/weighted --limit 1000 -o pictures --junit junit.xml", ".strata", true},
@@ -23,8 +24,8 @@ constexpr FileVerb table[] = {
     {"import_deep", "import --deep", "-o made.strata", ".exr", false},
 };
 
-constexpr const char* every_verb[] = {"list",  "record", "import", "info",  "validate", "replay",  "accept", "export",
-                                      "graph", "diff",   "report", "probe", "bench",    "spectra", "isa",    "inspect"};
+constexpr const char* every_verb[] = {"list",   "record",  "import", "info",  "validate", "replay",  "accept", "export", "graph",
+                                      "report", "compare", "diff",   "probe", "bench",    "spectra", "isa",    "inspect"};
 
 }  // namespace
 
