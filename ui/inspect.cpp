@@ -7,6 +7,7 @@
 
 #include "capture_format/frame/frame.h"
 #include "capture_format/reader.h"
+#include "replay/progress_line.h"
 #include "replay/standard_streams.h"
 #include "ui/script/script.h"
 #include "ui/window/window.h"
@@ -78,6 +79,8 @@ Result<void> play_script(const InspectOptions& options) {
     if (file.bad()) return fail(Fault::bad_input, "file.cannot_read", "cannot read {file}", options.script.string());
     const auto lines = parse_script(text.str(), options.script.string());
     if (!lines) return lines.error();
+    const strata::Progress progress = progress_line();
+    progress("opening " + options.capture.filename().string(), 0);
     const Context context;
     auto layer = ImguiLayer::headless(options.device);
     if (!layer) return layer.error();
@@ -86,7 +89,7 @@ Result<void> play_script(const InspectOptions& options) {
     Player player(inspector, **layer, {static_cast<float>(width), static_cast<float>(height)});
     if (const auto opened = player.wait(); !opened) return opened;
     if (const auto opened = report_opening(inspector); !opened) return opened;
-    if (const auto played = play(player, *lines, options.script.string(), std::filesystem::current_path()); !played)
+    if (const auto played = play(player, *lines, options.script.string(), std::filesystem::current_path(), progress); !played)
         return played;
     const std::vector<std::string> messages = (*layer)->take_messages();
     return messages.empty() ? Result<void>()

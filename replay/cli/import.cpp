@@ -186,9 +186,8 @@ std::vector<std::string> notes_on_view(const Frame& frame) {
 }
 
 /// Frame after frame, so that an animation of a large scene never lies in memory as a whole. Returns what the last one holds.
-Result<Counts> record_scene(const ImportArguments& options, GltfScene& scene, Recorder& recorder,
-                            std::vector<std::string>& notes) {
-    const Progress progress = progress_line();
+Result<Counts> record_scene(const ImportArguments& options, GltfScene& scene, Recorder& recorder, std::vector<std::string>& notes,
+                            const Progress& progress) {
     SceneRecording recording(recorder);
     Counts counts;
     for (std::uint32_t index = 0; index < options.frames; ++index) {
@@ -239,10 +238,12 @@ Result<void> import(const ImportArguments& options, const CLI::App& app) {
         output->recorder.add_texture(std::move(texture));
         return output->recorder.flush();
     };
+    const Progress progress = progress_line();
+    progress("reading " + options.scene.filename().string(), 0);
     auto scene = GltfScene::open(options.scene, gltf);
     if (!scene) return scene.error();
     std::vector<std::string> notes;
-    const auto last = record_scene(options, *scene, output->recorder, notes);
+    const auto last = record_scene(options, *scene, output->recorder, notes, progress);
     print_warnings(scene->warnings());
     print_warnings(notes);
     if (!last) return last.error();

@@ -55,6 +55,8 @@ Result<void> record(const RecordArguments& options) {
         if (!extent) return extent.error();
         std::tie(wanted.width, wanted.height) = *extent;
     }
+    const Progress progress = progress_line();
+    progress("thumbnail", 0);
     const auto thumbnail = make_thumbnail((*scenario)->build(0, wanted), options.device);
     if (!thumbnail) return thumbnail.error();
     const std::uint64_t budget = options.recorder.budget_bytes;
@@ -70,7 +72,6 @@ Result<void> record(const RecordArguments& options) {
     if (!recorder) return recorder.error();
     if (*thumbnail)
         if (const auto done = recorder->thumbnail(**thumbnail); !done) return done;
-    const Progress progress = progress_line();
     for (std::uint32_t index = 0; index < wanted.frames; ++index) {
         show_frame(progress, index, wanted.frames);
         Frame frame = (*scenario)->build(index, wanted);

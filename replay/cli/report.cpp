@@ -217,6 +217,27 @@ Result<void> report_hard_cases(const ReportArguments& options) {
     });
 }
 
+/// Captures as they were named, and those of folders by name. Fails for a folder without any.
+Result<std::vector<std::filesystem::path>> captures_of(const std::vector<std::filesystem::path>& named) {
+    std::vector<std::filesystem::path> captures;
+    for (const std::filesystem::path& path : named) {
+        std::error_code problem;
+        if (!std::filesystem::is_directory(path, problem)) {
+            captures.push_back(path);
+            continue;
+        }
+        std::vector<std::filesystem::path> inside;
+        for (const auto& entry : std::filesystem::directory_iterator(path, problem))
+            if (entry.path().extension() == ".strata") inside.push_back(entry.path());
+        if (inside.empty())
+            return fail(Fault::usage, "report.no_capture_in_folder", "the folder {folder} holds no capture (.strata file)",
+                        path.string());
+        std::ranges::sort(inside);
+        captures.insert(captures.end(), inside.begin(), inside.end());
+    }
+    return captures;
+}
+
 /// The reports of a run of the verb.
 struct Measured {
     std::vector<Report> reports;
@@ -278,6 +299,8 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
                     "capture");
     const auto wanted = request_of(options);
     if (!wanted) return wanted.error();
+    const auto captures = captures_of(options.captures);
+    if (!captures) return captures.error();
     ReportRequest request = *wanted;
     request.wants_pictures = format == OutputFormat::html;
     request.on_row = [](const Measurement& row, std::size_t place, std::size_t of) {
@@ -292,14 +315,14 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
     const StopAtSignal signal;
     const Deadline deadline(options.minutes, signal.token());
     Measured measured;
-    for (const std::filesystem::path& capture : options.captures) {
+    for (const std::filesystem::path& capture : *captures) {
         OpenOptions one = options.open;
         one.capture = capture;
         auto session = open(one);
         if (!session) return session.error();
         const auto frames = frame_indices(options.frames, (*session)->frame_count());
         if (!frames) return frames.error();
-        if (format == OutputFormat::html && (frames->size() > 1 || options.captures.size() > 1))
+        if (format == OutputFormat::html && (frames->size() > 1 || captures->size() > 1))
             return fail(Fault::usage, "report.page_of_one", "a page shows one frame, not several; write one page for each");
         (*session)->stop_when(deadline.token());
         const auto done = measure_frames(**session, request, *frames, capture.filename().string(), measured);
@@ -314,7 +337,7 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
     const std::vector<Report>& made = measured.reports;
     const auto done = write(options, written(format, made));
     if (!done) return done;
-    if (made.back().stopped.empty() && measured.captures == options.captures.size()) return check_answered(made);
+    if (made.back().stopped.empty() && measured.captures == captures->size()) return check_answered(made);
     const std::string missing = made.back().stopped.empty() ? "stopped before the next frame" : made.back().stopped;
     if (signal.token().stop_requested()) return fail(Fault::stopped, "session.stopped", "{progress}", missing);
     to_stderr("strata: {} minutes are over: {}\n", *options.minutes, missing);
@@ -325,9 +348,9 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
 
 std::function<Result<void>()> declare_report(CLI::App& app) {
     const auto options = std::make_shared<ReportArguments>();
-    CLI::Option* captures =
-        app.add_option("captures", options->captures, "captures (.strata files); several are also pooled into one table")
-            ->type_name(input_file);
+    CLI::Option* captures = app.add_option("captures", options->captures,
+                                           "captures (.strata files), or folders of them; several are also pooled into one table")
+                                ->type_name(input_files);
     CLI::Option* hard_cases =
         app.add_flag("--hard-cases", options->hard_cases,
                      "run every transparency technique on frames built to break it; print pass or the size of the error")

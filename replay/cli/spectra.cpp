@@ -49,11 +49,14 @@ Result<std::unique_ptr<Session>> open_one(const SpectraArguments& options, const
     return open(one);
 }
 
-Result<std::vector<FrameSpectra>> gather(const SpectraArguments& options, const Technique& technique, const Request& base) {
+Result<std::vector<FrameSpectra>> gather(const SpectraArguments& options, const Technique& technique, const Request& base,
+                                         const Progress& progress) {
     std::vector<FrameSpectra> gathered;
     std::string why = "nothing is lit";
     LeftOutNotes notes;
-    for (const std::filesystem::path& capture : options.captures) {
+    for (std::size_t i = 0; i < options.captures.size(); ++i) {
+        const std::filesystem::path& capture = options.captures[i];
+        progress("features of " + capture.filename().string(), double(i) / double(options.captures.size()));
         auto session = open_one(options, capture);
         if (!session) return session.error();
         const auto frames = frame_indices(options.frames, (*session)->frame_count());
@@ -108,7 +111,8 @@ Result<void> spectra(const SpectraArguments& options) {
     if (!technique) return technique.error();
     if (options.choices.uses.empty())
         to_stderr("strata: feature spectra are those of {}, whatever the captures were recorded with\n", (*technique)->name);
-    auto frames = gather(options, **technique, *base);
+    const Progress progress = progress_line();
+    auto frames = gather(options, **technique, *base, progress);
     if (!frames) return frames.error();
     CostQuestion question{.technique = **technique,
                           .base = *base,
@@ -116,7 +120,7 @@ Result<void> spectra(const SpectraArguments& options) {
                           .modes = modes_that_matter(*frames),
                           .open = [&](const std::string& capture) { return open_one(options, capture); },
                           .repeats = options.repeats,
-                          .progress = progress_line(),
+                          .progress = progress,
                           .gpu = *gpu};
     if (*gpu)
         question.compile = [&](const std::vector<PipelineRequest>& pipelines) {

@@ -106,7 +106,10 @@ bool is_in_one_of(const std::vector<std::filesystem::path>& folders, const std::
 /// From now on no input of the verb is replaced. Inputs that are no files and outputs whose names are known are refused before
 /// any work is done, and so are outputs that cannot be written: a report of hours would be lost.
 Result<void> keep_inputs(const CLI::App& verb) {
-    const std::vector<std::filesystem::path> inputs = files_of(verb, input_file);
+    std::vector<std::filesystem::path> inputs = files_of(verb, input_file);
+    std::error_code problem;
+    for (const std::filesystem::path& input : files_of(verb, input_files))
+        if (!std::filesystem::is_directory(input, problem)) inputs.push_back(input);
     const std::vector<std::filesystem::path> outputs = files_of(verb, output_file);
     for (const std::filesystem::path& output : outputs)
         if (output == "-")

@@ -86,7 +86,8 @@ ColumnsOfRows errors(const Report& report) {
                         .help = "error over the samples that the stage changes, where these are not all; rows are ranked by it",
                         .kind = kind_of(ranking_error(report)),
                         .better = Better::less,
-                        .shown = in_files | (is_shown ? unsigned{in_text} : 0u)},
+                        .shown = in_files | (is_shown ? in_text | in_window : 0u),
+                        .role = Role::error},
                        [](const Row& row) { return ranking_metric(row).value; }});
     columns.push_back(
         {{.key = "touched_share",
@@ -231,7 +232,8 @@ ColumnsOfRows costs(const Report& report) {
                       "throughput that its compiler states; no memory, no caches, no blending",
               .better = Better::less,
               .shown = in_files | in_text,
-              .if_any = true},
+              .if_any = true,
+              .role = Role::cost},
              [](const Row& row) { return row.modeled ? cell_or_unknown(row.modeled->kilocycles) : CellValue(); }},
             {{.key = "stage_bytes",
               .title = "bytes",

@@ -79,6 +79,21 @@ TEST(ReportColumns, AreTheErrorsThenTheCostsThatWereMeasured) {
     EXPECT_EQ(cell_text(column(columns_of(report()), "rmse"), 4), "\xe2\x80\x93");
 }
 
+/// The error that ranks rows is the axis that a plot begins with.
+TEST(ReportColumns, BeginWithWhatRanksRows) {
+    Report made = report();
+    for (Measurement& row : made.rows) {
+        if (!row.is_measured()) continue;
+        row.accuracy.technique_errors.push_back({"display rmse", "of white", .01, true});
+        row.accuracy.touched = {{"rmse", "radiance", .1}, {"display rmse", "of white", .02}};
+        row.accuracy.touched_share = .5;
+    }
+    const auto columns = columns_of(made);
+    EXPECT_EQ(columns.front().head, "display rmse touched, % of white");
+    EXPECT_EQ(*columns.front().values[1], .02);
+    EXPECT_EQ(&column_of(columns, ReportColumn::Kind::error, "nothing"), &columns.front());
+}
+
 TEST(ReportColumns, ABiasRanksByItsSizeAndIsShownWithItsSign) {
     const auto columns = columns_of(report());
     const ReportColumn& bias = column(columns, "bias");

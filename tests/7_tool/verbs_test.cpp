@@ -413,6 +413,18 @@ TEST(Report, AnswersWhichTechniqueKeepsAnErrorAndATime) {
     EXPECT_EQ(of_ps4["answer"]["memory"], 64 * 0x1p20);
 }
 
+TEST(Report, OfAFolderIsThatOfItsCaptures) {
+    std::filesystem::create_directories(folder() / "golden");
+    EXPECT_THAT(strata("-v report golden"), Refuses(2, "report.no_capture_in_folder", "folder=golden"));
+    for (const char* name : {"b", "a"})
+        ASSERT_EQ(strata(fmt::format("record three_panes -o golden/{}.strata --size 16x9", name)).code, 0);
+    std::ofstream(folder() / "golden/notes.txt") << "no capture";
+    const json made = json::parse(strata("report golden --techniques weighted --repeats 1 --json").out);
+    ASSERT_EQ(made["reports"].size(), 2u);
+    EXPECT_EQ(made["reports"][0]["capture_name"], "a.strata");
+    EXPECT_EQ(made["reports"][1]["capture_name"], "b.strata");
+}
+
 TEST(Report, OfSeveralFramesIsDecidedByTheWorst) {
     ASSERT_EQ(strata("record three_panes -o walk.strata --size 64x36 --frames 3").code, 0);
     const std::string verb = "report walk.strata --techniques weighted --repeats 1 --frames 0,2 --error ";

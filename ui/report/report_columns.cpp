@@ -118,9 +118,10 @@ std::vector<ReportColumn> columns_of(const Report& report) {
     const Sheet sheet = sheet_of(report);
     for (std::size_t i = 0; i < sheet.columns.size(); ++i)
         if ((sheet.columns[i].shown & in_window) != 0) columns.push_back(window_column(sheet, i));
-    // Errors, then costs; of these milliseconds first, which are the axis to begin with.
-    std::ranges::stable_sort(columns, {}, [](const ReportColumn& column) {
-        return std::pair(column.kind, column.kind == ReportColumn::Kind::cost && column.head != "ms");
+    // Errors, then costs; of these first the error that ranks rows and milliseconds, which are the axes to begin with.
+    const std::string ranking = title_of(ranking_error(report));
+    std::ranges::stable_sort(columns, {}, [&](const ReportColumn& column) {
+        return std::pair(column.kind, column.head != (column.kind == ReportColumn::Kind::cost ? "ms" : ranking));
     });
     std::erase_if(columns, [](const ReportColumn& column) {
         return std::ranges::none_of(column.values, [](const std::optional<double>& value) { return value.has_value(); });

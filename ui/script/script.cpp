@@ -147,10 +147,12 @@ Result<std::vector<ScriptLine>> parse_script(std::string_view text, const std::s
 }
 
 Result<void> play(Player& player, const std::vector<ScriptLine>& lines, const std::string& file,
-                  const std::filesystem::path& folder) {
+                  const std::filesystem::path& folder, const strata::Progress& progress) {
     Hands hands{player, folder};
-    for (const ScriptLine& line : lines)
+    for (const ScriptLine& line : lines) {
+        if (progress) progress(fmt::format("{}:{}", file, line.number), double(&line - lines.data()) / double(lines.size()));
         if (const auto done = play(hands, line); !done) return within(done.error(), "{file}:{line}", file, line.number);
+    }
     return {};
 }
 

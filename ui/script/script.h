@@ -53,7 +53,8 @@ private:
     ImguiLayer* layer_;
 };
 
-/// Files are written into the folder.
-Result<void> play(Player&, const std::vector<ScriptLine>&, const std::string& file, const std::filesystem::path& folder);
+/// Files are written into the folder. Told of each line before it is played.
+Result<void> play(Player&, const std::vector<ScriptLine>&, const std::string& file, const std::filesystem::path& folder,
+                  const strata::Progress& = {});
 
 }  // namespace strata::ui

@@ -39,7 +39,14 @@ std::string error_words(const Measurement& row) {
 
 std::string time_words(const Report& report, const Measurement& row) {
     if (!report.is_timed) return "";
-    if (row.time) return fmt::format("{:.2f} \u00d7 the time of {}", row.time->median, below_stage(report.time_unit));
+    const std::string unit = below_stage(report.time_unit);
+    if (!report.question.gpu.empty()) {
+        const std::vector<Standing> asked = asked_standings(report);
+        const Standing& own = asked[std::size_t(&row - report.rows.data())];
+        return own.error ? fmt::format("{:.2f} \u00d7 the modeled time of {} on {}", own.time, unit, report.question.gpu)
+                         : "a time that no model knows";
+    }
+    if (row.time) return fmt::format("{:.2f} \u00d7 the time of {}", row.time->median, unit);
     return short_number(row.stage_ms.median) + " ms";
 }
 
@@ -125,22 +132,19 @@ private:
 
     std::string notes() const {
         std::string text;
-        if (report_.device.software && report_.is_timed)
-            text += fmt::format(
-                "<p class=\"warn\">Times are of a CPU driver ({}): they rank techniques on it and model no "
-                "GPU.</p>\n",
-                escaped(report_.device.name));
+        const std::string times = times_text(report_);
+        if (report_.is_timed && !times.empty()) text += fmt::format("<p class=\"warn\">{}</p>\n", escaped(times));
         for (const Warning& warning : warnings_of(report_))
             text += fmt::format("<p class=\"warn\" data-id=\"{}\">{}</p>\n", escaped(warning.id), escaped(warning.text));
         if (!report_.stopped.empty()) text += fmt::format("<p class=\"warn\">{}</p>\n", escaped(report_.stopped));
         return text;
     }
 
-    /// Its last line, a command, has a place of its own.
+    /// Its last line, a command, has a place of its own, and so has the one on the times.
     std::string answer() const {
         std::string text;
         for (const AnswerLine& line : answer_lines(report_)) {
-            if (line.head == replay_head) continue;
+            if (line.head == replay_head || line.text == times_text(report_)) continue;
             text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(line.head), escaped(line.text));
         }
         return text.empty() ? "" : "<dl>\n" + text + "</dl>\n";
@@ -201,7 +205,8 @@ private:
                 return number && std::isfinite(*number) && *number > 0;
             });
             if (!has_numbers) continue;
-            found.insert(is.key == ranking_key ? found.begin() : found.end(), i);
+            // A plot begins with what the answer rests on.
+            found.insert(is.key == ranking_key || is.key == "modeled_kilocycles" ? found.begin() : found.end(), i);
         }
         return found;
     }
@@ -242,7 +247,7 @@ private:
         if (is_ranking && ranking_error(report_).is_of_white)
             made.y_floor = 100 * exact_below, made.strip_title = fmt::format("< {:g}", made.y_floor);
         if (is_ranking && report_.question.error) made.most_y = scaled(up, *report_.question.error);
-        if (is_time && report_.question.within) made.most_x = report_.question.within;
+        if (is_time && report_.question.within && report_.question.gpu.empty()) made.most_x = report_.question.within;
         for (std::size_t i = 0; i < sheet_.rows.size(); ++i) {
             const auto x = cell_number(sheet_.rows[i].values[across]), y = cell_number(sheet_.rows[i].values[up]);
             if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y)) continue;
