@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <ranges>
 #include <set>
 #include <tuple>
 
@@ -46,7 +47,7 @@ double pooled_error(std::span<const Source> rows, const RankingError& error) {
         of_capture = std::max(of_capture, ranking_value(from));
     }
     std::vector<double> errors;
-    for (const auto& [capture, value] : worst) errors.push_back(value);
+    std::ranges::copy(std::views::values(worst), std::back_inserter(errors));
     if (!error.is_of_white) return geometric_mean(errors);
     return std::accumulate(errors.begin(), errors.end(), 0.) / double(errors.size());
 }

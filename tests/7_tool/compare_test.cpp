@@ -46,7 +46,8 @@ TEST(Compare, ReadsWhatReportWrites) {
                   2 * row["stage_ms"]["median"].get<double>());
         EXPECT_TRUE(row.contains("ranking_error"));
         double multiples = 0;
-        for (const int i : {0, 1}) multiples += row["repeats_ms"][i].get<double>() / row["baseline_repeats_ms"][i].get<double>();
+        for (const std::size_t i : {0u, 1u})
+            multiples += row["repeats_ms"][i].get<double>() / row["baseline_repeats_ms"][i].get<double>();
         EXPECT_NEAR(multiples, 2 * row["time"]["median"].get<double>(), 1e-12 * multiples) << "rounding";
     }
     const Finished same = strata("compare made.json made.json --cost bytes_per_pixel");

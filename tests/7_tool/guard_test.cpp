@@ -1,4 +1,5 @@
 // docs/examples/guard/guard.sh, the recipe of docs/guard.md: what it prints and writes, and its exit codes.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

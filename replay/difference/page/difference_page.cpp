@@ -24,9 +24,11 @@ constexpr std::size_t most_kept = 8 * page_picture_bytes;
 struct Pixels {
     int width = 0, height = 0;
     std::vector<Rgb> rgb;
-
-    Rgb at(int x, int y) const { return rgb[static_cast<std::size_t>(y * width + x)]; }
 };
+
+Rgb pixel(const Canvas& canvas, int x, int y) {
+    return canvas.pixels()[std::size_t(y) * std::size_t(canvas.width()) + std::size_t(x)];
+}
 
 /// Blocks of texels as one pixel each: their mean, or the brightest, so that no single texel that differs is lost.
 Pixels shrunk(const Canvas& canvas, int by, bool is_difference) {
@@ -37,7 +39,7 @@ Pixels shrunk(const Canvas& canvas, int by, bool is_difference) {
             int count = 0;
             for (int v = y * by; v < std::min((y + 1) * by, canvas.height()); ++v)
                 for (int u = x * by; u < std::min((x + 1) * by, canvas.width()); ++u) {
-                    const glm::ivec3 texel(canvas.pixels()[static_cast<std::size_t>(v * canvas.width() + u)]);
+                    const glm::ivec3 texel(pixel(canvas, u, v));
                     sum += texel, ++count;
                     if (texel.x + texel.y + texel.z > brightest.x + brightest.y + brightest.z) brightest = texel;
                 }
@@ -49,8 +51,7 @@ Pixels shrunk(const Canvas& canvas, int by, bool is_difference) {
 Pixels cut(const Canvas& canvas, const Box& box) {
     Pixels made{box.width, box.height, {}};
     for (int y = box.y; y < box.y + box.height; ++y)
-        for (int x = box.x; x < box.x + box.width; ++x)
-            made.rgb.push_back(canvas.pixels()[static_cast<std::size_t>(y * canvas.width() + x)]);
+        for (int x = box.x; x < box.x + box.width; ++x) made.rgb.push_back(pixel(canvas, x, y));
     return made;
 }
 
@@ -117,6 +118,7 @@ public:
                     places_.push_back(
                         {&frame, &pass, &image, frame.divergence.pass == pass.label && frame.divergence.image == image.image});
         std::vector<const Place*> order;
+        order.reserve(places_.size());
         for (const Place& place : places_) order.push_back(&place);
         std::ranges::stable_sort(
             order, {}, [](const Place* place) { return std::tuple(!place->is_first, -static_cast<int>(place->image->verdict)); });
