@@ -53,8 +53,8 @@ Result<void> compare(const CompareArguments& options) {
     if (*limit) {
         if (const auto holds = check_growth(*made, **limit); !holds) return holds;
         if (const std::size_t rows = rows_not_judged(*made); rows > 0)
-            to_stderr("strata: --fail-above did not judge {} one by one: timed fewer than {} times\n", plural(rows, "row"),
-                      fewest_repeats_of_row);
+            to_stderr("strata: --fail-above did not judge {} one by one: without a time, or timed fewer than {} times\n",
+                      plural(rows, "row"), fewest_repeats_of_row);
     }
     return check_overlap(*made);
 }
@@ -70,8 +70,10 @@ std::function<Result<void>()> declare_compare(CLI::App& app) {
            "cost to compare: ms (default), time (multiples of the baseline's, so that a slower machine cancels) or memory")
         ->check(one_of(
             {std::string(name(CostKind::ms)), std::string(name(CostKind::time)), std::string(name(CostKind::bytes_per_pixel))}));
-    app.add_option("--fail-above", options->fail_above,
-                   "exit code 1 if B costs over this much more than A, like 5%, beyond the spread; single rows need 7 repeats");
+    app.add_option(
+        "--fail-above", options->fail_above,
+        "exit code 1 if B costs over this much more than A, like 5%, beyond the spread, or lacks a row of A; single rows need 7 "
+        "repeats. Errors are not judged");
     add_memory_budget(app, options->memory_budget);
     add_formats(app, options->output);
     add_output_file(app, options->output,

@@ -352,12 +352,22 @@ Result<void> read_ignored(const DiffArguments& options, IgnoredPixels& ignored) 
     return {};
 }
 
-/// Fails where --images names one that was not compared.
-Result<void> check_images(const Comparison& comparison) {
+/// Fails where --images names one that was not compared, or --ignore nothing that was.
+Result<void> check_chosen(const Comparison& comparison) {
     std::set<std::string> compared;
+    std::uint64_t ignored = 0;
+    bool is_one_image = false;  // of two files, whose name does not matter
     for (const FrameComparison& frame : comparison.frames)
-        for (const PassComparison& pass : frame.passes)
-            for (const ImageComparison& image : pass.images) compared.insert(image.image);
+        for (const PassComparison& pass : frame.passes) {
+            is_one_image = pass.label == label_of_files && pass.images.size() == 1;
+            for (const ImageComparison& image : pass.images) {
+                compared.insert(image.image);
+                ignored += image.error.ignored;
+            }
+        }
+    if (!comparison.limits.ignored.is_empty() && ignored == 0)
+        return fail(Fault::usage, "diff.ignores_nothing", "--ignore covers no pixel of the images that are compared");
+    if (is_one_image) return {};
     for (const std::string& image : comparison.limits.images)
         if (!compared.contains(image))
             return fail(Fault::usage, "diff.no_such_image", "--images {image}: neither A nor B has an image of this name", image);
@@ -380,6 +390,10 @@ Result<void> check_options(const DiffArguments& options) {
     if (options.b.file.empty() && !has_a_side_b(options))
         return fail(Fault::usage, "diff.nothing_to_compare",
                     "there is nothing to compare A with: name a second file, or options of B (--use, --set, --gpu-b)");
+    if (options.limits.flip_mean && !options.limits.limit)
+        if (const auto fits = check_not_given(app, {"--percent"}, "with --flip-limit and without --limit FLIP alone decides");
+            !fits)
+            return fits;
     const bool a_is_image = is_image(options.a.file), b_is_image = is_image(options.b.file);
     if (b_is_image)
         if (const auto fits = check_not_given(app, {"--use", "--set", "--gpu-b"}, "B is an image and not replayed"); !fits)
@@ -400,7 +414,7 @@ Result<void> diff(DiffArguments options) {
     Pictures pictures(options);
     Comparison comparison{.limits = options.limits, .tool = fmt::format("strata {}", tool_revision), .rerun = options.rerun};
     if (const auto done = compare(options, pictures, comparison); !done) return done;
-    if (const auto known = check_images(comparison); !known) return known;
+    if (const auto known = check_chosen(comparison); !known) return known;
     comparison.date = date_of_output();
     write_stdout(in_format(printed_format(options.printed), comparison));
     if (!options.junit.empty())

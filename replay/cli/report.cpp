@@ -105,6 +105,9 @@ Result<void> read_costs(const ReportArguments& options, Question& question) {
     if (!within) return within.error();
     (is_of_time ? question.within_ms : question.within) = *within;
     if (options.memory) question.memory = double(*options.memory);
+    if (options.cost == "memory" && !question.is_asked())
+        return fail(Fault::usage, "report.cost_without_limits",
+                    "--cost memory says what an answer has least of; ask for one with --error, --within or --memory");
     return {};
 }
 

@@ -148,7 +148,7 @@ Result<void> check_rows(const ReportComparison& made, double limit) {
 
 }  // namespace
 
-std::string_view name(CostKind cost) { return cost == CostKind::ms ? "ms" : cost == CostKind::time ? "time" : "bytes_per_pixel"; }
+std::string_view name(CostKind cost) { return cost == CostKind::ms ? "ms" : cost == CostKind::time ? "time" : "memory"; }
 
 Result<ReportComparison> compare_reports(StoredReport a, StoredReport b, CostKind cost, const Bootstrap& bootstrap) {
     if (const auto fits = check_comparable(a, b, cost); !fits) return fits.error();
@@ -187,6 +187,9 @@ Result<void> check_overlap(const ReportComparison& made) {
 }
 
 Result<void> check_growth(const ReportComparison& made, double limit) {
+    if (!made.only_a.empty())
+        return fail(Fault::over_tolerance, "compare.rows_gone", "{rows} of A are not ranked in B: {names}",
+                    plural(made.only_a.size(), "row"), first_of(made.only_a));
     if (const StoredRow* row = row_of_few_repeats(made))
         return fail(
             Fault::usage, "compare.few_repeats",

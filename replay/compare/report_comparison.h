@@ -68,9 +68,9 @@ Result<ReportComparison> compare_reports(StoredReport a, StoredReport b, CostKin
 
 /// Fails (usage) where the curves have no range of errors in common.
 Result<void> check_overlap(const ReportComparison&);
-/// Fails (over tolerance) where B costs more at equal error by more than the limit, a share, and the interval says that it costs
-/// more at all; or where a row does by its least_ratio. Fails (usage) where a row of the curves has fewer repeats than
-/// fewest_repeats_of_interval.
+/// Fails (over tolerance) where B lacks a row of A, or where B costs more at equal error by more than the limit, a share, and the
+/// interval says that it costs more at all; or where a row does by its least_ratio. Fails (usage) where a row of the curves has
+/// fewer repeats than fewest_repeats_of_interval.
 Result<void> check_growth(const ReportComparison&, double limit);
 /// Rows of both that check_growth() cannot judge one by one: timed fewer than fewest_repeats_of_row times.
 std::size_t rows_not_judged(const ReportComparison&);

@@ -86,7 +86,7 @@ std::optional<Error> wrong_document(const json& document, const std::string& fil
     const auto name = schema->get<std::string>();
     if (name == pooled_reports_schema)
         return fail(Fault::bad_input, "compare.several_captures",
-                    "{file} has reports of several captures; write one file for each with strata report CAPTURE -o FILE.json",
+                    "{file} has several reports; write one file for each with strata report CAPTURE --frames N -o FILE.json",
                     file);
     if (name != report_schema)
         return fail(Fault::bad_input, "compare.other_schema", "{file} is a document of schema '{schema}', not '{wanted}'", file,

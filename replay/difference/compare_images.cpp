@@ -62,7 +62,7 @@ void decide(ImageComparison& made, const ErrorLimits& limits) {
     made.judged = judged(made, limits);
     if (made.error.worst == 0 && made.error.disagreeing == 0 && made.error.ignored > 0) {
         made.verdict = Verdict::within;
-        made.reason = fmt::format("{} differ at most, which are ignored", plural(made.error.ignored, "pixel"));
+        made.reason = fmt::format("no pixel differs but some of the {} that are ignored", made.error.ignored);
         return;
     }
     const auto broken = std::ranges::find_if(made.judged, [](const Judged& j) { return j.value > j.threshold; });

@@ -135,10 +135,10 @@ Result<FrameComparison> compare_runs(const RunToCompare& a, const RunToCompare& 
 Result<FrameComparison> compare_image_sets(const NamedImages& a, const NamedImages& b, const ErrorLimits& limits,
                                            const SeeImages& see) {
     FrameComparison frame;
-    PassComparison pass{.label = "images"};
+    PassComparison pass{.label = std::string(label_of_files)};
     const bool single = a.size() == 1 && b.size() == 1;
     for (const auto& [image, of_a] : a) {
-        if (!limits.asks_for(image)) continue;
+        if (!single && !limits.asks_for(image)) continue;
         const auto of_b = single ? b.begin() : b.find(image);
         if (of_b == b.end())
             return fail(Fault::usage, "difference.image_missing", "{side} has an image '{image}' and {other} has none", "A",

@@ -12,9 +12,11 @@
 
 namespace strata {
 
-/// A pass of a stage in both runs.
+inline constexpr std::string_view label_of_files = "images";
+
+/// A pass of a stage in both runs, or the images of two files.
 struct PassComparison {
-    std::string label;               ///< "transparency", "combine at film", or "images" where files are compared
+    std::string label;               ///< "transparency", "combine at film", or label_of_files
     std::string choice_a, choice_b;  ///< "technique key=value ..."
     std::vector<ImageComparison> images;
 };
@@ -60,7 +62,8 @@ using SeeImages =
 /// Pass by pass. Fails when images that should have one shape do not.
 Result<FrameComparison> compare_runs(const RunToCompare& a, const RunToCompare& b, const ErrorLimits&, const SeeImages&);
 
-/// By name; one image on each side is compared whatever its name. Fails where a name is on one side only.
+/// By name; one image on each side is compared whatever its name, also where the limits ask for others. Fails where a name is on
+/// one side only.
 Result<FrameComparison> compare_image_sets(const NamedImages& a, const NamedImages& b, const ErrorLimits&, const SeeImages&);
 
 /// The worst verdict of all frames.

@@ -5,7 +5,7 @@
 namespace strata {
 namespace {
 
-/// Where blocks begin along an edge: the last ends where the image does.
+/// Where blocks of a grid begin along an edge, half a block apart: the last ends where the image does.
 std::vector<std::uint32_t> block_starts(std::uint32_t edge) {
     std::vector<std::uint32_t> starts;
     for (std::uint32_t at = 0; at + region_block < edge; at += region_block / 2) starts.push_back(at);
@@ -37,6 +37,10 @@ private:
     std::vector<std::uint32_t> sums_;
 };
 
+bool overlap(const PixelBox& a, const PixelBox& b) {
+    return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
+
 /// The smallest box around the pixels over the limit in a box.
 PixelBox shrunk(PixelBox box, const Counts& counts) {
     while (counts.in({box.x, box.y, 1, box.height}) == 0) ++box.x, --box.width;
@@ -51,22 +55,35 @@ PixelBox shrunk(PixelBox box, const Counts& counts) {
 std::optional<WorstRegion> worst_region(const std::vector<bool>& is_over, std::uint32_t width, std::uint32_t height) {
     if (width == 0 || height == 0) return std::nullopt;
     const Counts counts(is_over, width, height);
-    const std::vector<std::uint32_t> columns = block_starts(width), rows = block_starts(height);
     const std::uint32_t block_width = std::min(width, region_block), block_height = std::min(height, region_block);
+    std::uint64_t most = 0;
+    PixelBox densest;
+    for (std::uint32_t y = 0; y + block_height <= height; ++y)
+        for (std::uint32_t x = 0; x + block_width <= width; ++x) {
+            const PixelBox block{x, y, block_width, block_height};
+            const std::uint64_t count = counts.in(block);
+            if (count > most) most = count, densest = block;
+        }
+    if (most == 0) return std::nullopt;
+    WorstRegion worst{.block_density = double(most) / (double(block_width) * block_height)};
+
+    // Blocks of a grid that hang together with the densest.
+    const std::vector<std::uint32_t> columns = block_starts(width), rows = block_starts(height);
     const auto block = [&](std::size_t i) {
         return PixelBox{columns[i % columns.size()], rows[i / columns.size()], block_width, block_height};
     };
-    std::vector<std::uint64_t> in_block(columns.size() * rows.size());
-    for (std::size_t i = 0; i < in_block.size(); ++i) in_block[i] = counts.in(block(i));
-    const auto densest = std::ranges::max_element(in_block);
-    if (*densest == 0) return std::nullopt;
-    WorstRegion worst{.block_density = double(*densest) / (double(block_width) * block_height)};
-
-    // Blocks that hang together with the densest.
-    std::vector<bool> is_taken(in_block.size());
-    std::vector<std::size_t> open{static_cast<std::size_t>(densest - in_block.begin())};
-    is_taken[open.front()] = true;
-    std::uint32_t left = width, top = height, right = 0, below = 0;
+    std::vector<bool> is_taken(columns.size() * rows.size());
+    std::vector<std::size_t> open;
+    const auto take = [&](std::size_t column, std::size_t row) {
+        const std::size_t i = row * columns.size() + column;
+        if (column >= columns.size() || row >= rows.size() || is_taken[i] || 2 * counts.in(block(i)) < most) return;
+        is_taken[i] = true;
+        open.push_back(i);
+    };
+    for (std::size_t row = 0; row < rows.size(); ++row)
+        for (std::size_t column = 0; column < columns.size(); ++column)
+            if (overlap(block(row * columns.size() + column), densest)) take(column, row);
+    std::uint32_t left = densest.x, top = densest.y, right = left + block_width, below = top + block_height;
     while (!open.empty()) {
         const std::size_t i = open.back();
         open.pop_back();
@@ -74,13 +91,6 @@ std::optional<WorstRegion> worst_region(const std::vector<bool>& is_over, std::u
         left = std::min(left, box.x), top = std::min(top, box.y);
         right = std::max(right, box.x + box.width), below = std::max(below, box.y + box.height);
         const std::size_t column = i % columns.size(), row = i / columns.size();
-        const auto take = [&](std::size_t at_column, std::size_t at_row) {
-            if (at_column >= columns.size() || at_row >= rows.size()) return;
-            const std::size_t other = at_row * columns.size() + at_column;
-            if (is_taken[other] || 2 * in_block[other] < *densest) return;
-            is_taken[other] = true;
-            open.push_back(other);
-        };
         take(column + 1, row), take(column, row + 1);
         if (column > 0) take(column - 1, row);
         if (row > 0) take(column, row - 1);

@@ -17,7 +17,7 @@ struct PixelBox {
     bool operator==(const PixelBox&) const = default;
 };
 
-/// Edge of the blocks whose density is judged, in pixels; they overlap by half.
+/// Edge of the blocks whose density is judged, in pixels; they lie anywhere in the image.
 inline constexpr std::uint32_t region_block = 16;
 
 struct WorstRegion {

@@ -61,8 +61,9 @@ std::string size_text(double bytes) {
 /// The costs that are asked for, or that rows are compared by.
 std::string costs(const Standing& row, const Question& asked, const AnswerNames& names) {
     std::string text;
-    if (!names.unit.empty()) text += fmt::format(", {:.2f}x", row.time);
-    if (asked.within_ms) text += fmt::format(", {} ms", short_number(row.ms));
+    const char* modeled = asked.gpu.empty() ? "" : " modeled";
+    if (!names.unit.empty()) text += fmt::format(", {:.2f}x{}", row.time, modeled);
+    if (asked.within_ms) text += fmt::format(", {} ms{}", short_number(row.ms), modeled);
     return text + (asked.memory ? ", " + size_text(row.bytes) : fmt::format(", {} bytes per pixel", row.bytes_per_pixel));
 }
 
@@ -99,7 +100,7 @@ public:
 
     std::vector<AnswerLine> lines() const {
         std::vector<AnswerLine> lines = answer_.recommended ? recommendation() : nearest();
-        lines.front().head = fmt::format("answer{} for ", names_.over) + limits(asked_, names_);
+        lines.front().head = fmt::format("answer{}{} ", names_.over, asked_.error ? " for" : "") + limits(asked_, names_);
         if (!names_.times_are.empty()) lines.insert(lines.begin(), {"", names_.times_are});
         const auto shown = answer_.recommended ? answer_.recommended : answer_.nearest;
         if (baseline_ && baseline_ != shown && rows_[*baseline_].error)
@@ -151,7 +152,8 @@ private:
 
     std::vector<AnswerLine> nearest() const {
         constexpr std::array all_of{"it", "both", "all"};
-        const std::string none = fmt::format("no technique keeps {}", all_of[std::size_t(limited(asked_)) - 1]);
+        const std::string none = fmt::format("no technique{} keeps {}", asked_.gpu.empty() ? "" : " with a modeled time",
+                                             all_of[std::size_t(limited(asked_)) - 1]);
         if (!answer_.nearest) return {{"", none}};
         const std::size_t near = *answer_.nearest;
         return {{"", fmt::format("{}; the nearest, {}, misses {}", none, row(near), missed(rows_[near], asked_))}};

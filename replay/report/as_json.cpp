@@ -26,6 +26,7 @@ void add_parts(ordered_json& json, const Measurement& row, bool is_timed) {
     json["implementation_error"]["worst_texel"] = {
         {"image", worst.image},         {"x", worst.x}, {"y", worst.y}, {"layer", worst.layer}, {"got", texel(worst.got)},
         {"wanted", texel(worst.wanted)}};
+    if (row.modeled && !row.modeled->missing.empty()) json["modeled_missing"] = row.modeled->missing;
     if (!is_timed) return;
     json["repeats_ms"] = row.repeats_ms;
     if (row.time) json["baseline_repeats_ms"] = row.baseline_repeats_ms;

@@ -177,6 +177,17 @@ std::string times_text(const Report& report) {
     return fmt::format("times are of {}, a CPU, and no GPU's: --cost cycles:GPU models one", report.device.driver);
 }
 
+std::string without_modeled_time(const Report& report) {
+    std::vector<std::string> rows;
+    std::string why;
+    for (const Measurement& row : report.rows) {
+        if (!row.is_measured() || !row.modeled || row.modeled->ms) continue;
+        rows.push_back(short_label(row));
+        if (why.empty()) why = row.modeled->missing;
+    }
+    return rows.empty() ? "" : fmt::format("{}, which therefore take no part ({})", first_of(rows), why);
+}
+
 std::vector<AnswerLine> answer_lines(const Report& report) {
     if (!report.question.is_asked()) return {};
     if (changes_too_little(report))
@@ -196,7 +207,10 @@ std::vector<AnswerLine> answer_lines(const Report& report) {
         names.baseline_note = fmt::format("its time contains {} ms in which the CPU sorts {} and {}",
                                           short_number(report.rows[*baseline].sort_ms->median),
                                           plural(report.sorted_objects, "object"), plural(report.sorted_particles, "particle"));
-    return answer_lines(rows, baseline, report.question, names);
+    std::vector<AnswerLine> lines = answer_lines(rows, baseline, report.question, names);
+    if (const std::string missing = without_modeled_time(report); !missing.empty())
+        lines.insert(lines.begin() + 1, {"without a modeled time", missing});
+    return lines;
 }
 
 std::string command_of(const Report& report, const Measurement& row) {

@@ -9,7 +9,9 @@
 #include "passes/reference/display_light.h"
 #include "passes/reference/textures.h"
 #include "passes/stages.h"
+#include "replay/difference/canvas.h"
 #include "replay/images/image_io.h"
+#include "replay/measure/flip.h"
 #include "replay/session/light_unit.h"
 
 namespace strata {
@@ -22,10 +24,11 @@ struct ShownPicture {
     std::uint32_t width = 0, height = 0;
     std::vector<glm::dvec3> pixels;
     std::vector<std::array<std::byte, 3>> bytes;
+    ColorPlanes light;
 };
 
 ShownPicture shown_picture(const ReferenceImage& display) {
-    ShownPicture picture{.width = display.width, .height = display.height};
+    ShownPicture picture{.width = display.width, .height = display.height, .light = color_planes(display)};
     const std::size_t pixels = std::size_t(display.width) * display.height;
     picture.pixels.resize(pixels, glm::dvec3(0));
     for (std::size_t i = 0; i < display.texels.size(); ++i) picture.pixels[i % pixels] += glm::dvec3(display.texels[i]);
@@ -56,6 +59,9 @@ RowPicture row_picture(const ShownPicture& row, const ShownPicture& truth) {
         made.worst_x = std::uint32_t(i % row.width), made.worst_y = std::uint32_t(i / row.width);
     }
     made.png = encode_png(row.width, row.height, 4, rgba);
+    std::vector<Rgb> map;
+    for (const float flip : display_flip(truth.light, row.light).map) map.push_back(magma(double(flip)));
+    made.flip_png = encode_png(row.width, row.height, 3, std::as_bytes(std::span(map)));
     return made;
 }
 

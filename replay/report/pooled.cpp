@@ -154,6 +154,7 @@ Pool pooled(std::span<const Report> reports) {
         const Report& report = reports[i];
         pool.stage = report.stage, pool.question = report.question, pool.times_are = times_text(report);
         if (!report.skipped.empty() || !report.is_timed) continue;
+        if (pool.without_modeled_time.empty()) pool.without_modeled_time = without_modeled_time(report);
         const std::string frame = name_of(report, std::ranges::count(captures, captures[i]) == 1);
         if (changes_too_little(report)) {
             pool.left_out.push_back(frame);
@@ -249,7 +250,10 @@ std::vector<AnswerLine> answer_lines(const Pool& pool) {
         const std::string mean = pool.captures > 1 ? fmt::format("in the mean, {} ", pool.error.text(row.worst_error)) : "";
         names.worst.push_back(fmt::format("{}on {}", mean, row.worst_frame));
     }
-    return answer_lines(rows, baseline, pool.question, names);
+    std::vector<AnswerLine> lines = answer_lines(rows, baseline, pool.question, names);
+    if (!pool.without_modeled_time.empty())
+        lines.insert(lines.begin() + 1, {"without a modeled time", pool.without_modeled_time});
+    return lines;
 }
 
 }  // namespace strata

@@ -39,6 +39,7 @@ struct Pool {
     std::string time_unit;                 ///< as in Report; empty when not all have the same
     Question question;                     ///< of the reports
     std::string times_are;                 ///< of AnswerNames
+    std::string without_modeled_time;      ///< of a frame that has some
     std::vector<PooledRow> rows;           ///< those that can do all frames first, then the ranked ones, then the most accurate
 };
 

@@ -1,5 +1,6 @@
 // What a pool says of each of its rows. Keys are those of report_columns.cpp where the values are means of these.
 #include <algorithm>
+#include <cmath>
 
 #include "passes/stages.h"
 #include "replay/report/report_columns.h"
@@ -53,6 +54,19 @@ ColumnsOfPool means(const Pool& pool) {
           .better = Better::less,
           .shown = in_files | (pool.time_unit.empty() ? 0u : unsigned{in_text})},
          [](const PooledRow& row) { return cell_or_nothing(row.time); }},
+        {{.key = "worst_ms",
+          .title = "worst ms",
+          .help = "milliseconds of the slowest frame, which `--within 2ms` limits",
+          .better = Better::less,
+          .shown = in_files | (pool.question.within_ms ? unsigned{in_text} : 0u)},
+         [](const PooledRow& row) { return std::isfinite(row.asked.ms) ? CellValue(row.asked.ms) : CellValue(); }},
+        {{.key = "worst_bytes",
+          .title = "most bytes",
+          .help = "memory of the frame that takes most, which `--memory` limits",
+          .better = Better::less,
+          .shown = in_files | (pool.question.memory ? unsigned{in_text} : 0u),
+          .digits = ".0f"},
+         [](const PooledRow& row) { return row.asked.bytes; }},
         {{.key = "bytes_per_pixel", .title = "bytes per pixel", .help = "mean", .better = Better::less, .digits = ".0f"},
          [](const PooledRow& row) { return row.bytes_per_pixel; }},
         {{.key = "flicker",

@@ -64,6 +64,7 @@ struct ReportRequest {
 struct RowPicture {
     std::vector<std::byte> png;              ///< RGBA; what shows as the truth does is transparent
     std::uint32_t worst_x = 0, worst_y = 0;  ///< the pixel that is furthest from the truth's, as sRGB encodes both
+    std::vector<std::byte> flip_png;         ///< FLIP's map in colors of magma(): RGB
 };
 
 /// On a GPU that need not be there: modeled_cost.h.
@@ -161,6 +162,8 @@ Answer answer_of(const Report&);
 
 /// The device whose times an answer rests on, as a sentence; nothing where it rests on none.
 std::string times_text(const Report&);
+/// The rows that the GPU of the question has no time for, and why; empty where there are none.
+std::string without_modeled_time(const Report&);
 /// The answer in words; none where nothing was asked.
 std::vector<AnswerLine> answer_lines(const Report&);
 /// The command that replays a row.

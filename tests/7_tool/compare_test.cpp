@@ -50,7 +50,7 @@ TEST(Compare, ReadsWhatReportWrites) {
             multiples += row["repeats_ms"][i].get<double>() / row["baseline_repeats_ms"][i].get<double>();
         EXPECT_NEAR(multiples, 2 * row["time"]["median"].get<double>(), 1e-12 * multiples) << "rounding";
     }
-    const Finished same = strata("compare made.json made.json --cost bytes_per_pixel");
+    const Finished same = strata("compare made.json made.json --cost memory");
     EXPECT_THAT(same.out, AllOf(StartsWith("transparency of made.json (A) and made.json (B)"), HasSubstr("\n   weighted ")));
 }
 

@@ -58,8 +58,9 @@ TEST(DiffPage, ShowsTheOneTexelThatDiffersOfALargeImage) {
     must(write_png(folder() / "a.png", a));
     a.texels[4 * (1300 * 7 + 1101)] = std::byte{0};
     must(write_png(folder() / "b.png", a));
-    EXPECT_EQ(strata("diff a.png b.png -o page.html").code, 1);
+    EXPECT_EQ(strata("diff a.png b.png --images display -o page.html").code, 1) << "the one image of a file is always compared";
     const std::string text = file_text(page());
+    EXPECT_THAT(text, HasSubstr("<h1>Over tolerance: image differs first</h1>"));
     EXPECT_THAT(text, HasSubstr("1300 x 20, shown at 1/3"));
     EXPECT_THAT(text, HasSubstr("data-size=\"434 7\""));
     if (!Browser::is_there()) GTEST_SKIP() << "no chromium-headless-shell";
@@ -165,6 +166,8 @@ TEST(DiffLimits, OfARegionIgnoredPixelsAndImagesAreOptions) {
     EXPECT_EQ(strata(verb + "--images display --limit .001 --percent 90").code, 0);
     EXPECT_THAT(strata(verb + "--images display --limit .001 --percent 90 --region 20"), Refuses(1, "diff.over_tolerance"));
     EXPECT_EQ(strata(verb + "--region 20").code, 2) << "needs --limit";
+    EXPECT_EQ(strata(verb + "--flip-limit .1 --percent 2").code, 2) << "FLIP alone decides";
+    EXPECT_THAT(strata(verb + "--images display --ignore 64,0,9x9"), Refuses(2, "diff.ignores_nothing"));
     const std::string box =
         fmt::format("{},{},{}x{}", error["worst_region"]["x"].get<int>(), error["worst_region"]["y"].get<int>(),
                     error["worst_region"]["width"].get<int>(), error["worst_region"]["height"].get<int>());

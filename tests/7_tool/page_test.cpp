@@ -128,7 +128,7 @@ TEST(Page, DoesInABrowserWhatItsControlsSay) {
     EXPECT_TRUE(
         is("document.querySelector('#name').textContent === document.querySelector('h1').textContent.match(/^Use (.*): /)[1]"));
     EXPECT_TRUE(is("document.querySelectorAll('.three .pic').length === 3 && !document.querySelector('.three figure').hidden"));
-    EXPECT_TRUE(is("document.querySelectorAll('.sheet canvas').length === document.querySelectorAll('.sheet img').length"));
+    EXPECT_TRUE(is("document.querySelectorAll('.sheet canvas').length === document.querySelectorAll('.sheet .pic img').length"));
     // The magnifier is at the pixel that is furthest off; that of the least accurate row is.
     browser.value("document.querySelector('.rows tbody tr:last-child').click()");
     EXPECT_TRUE(
@@ -143,13 +143,27 @@ TEST(Page, DoesInABrowserWhatItsControlsSay) {
     browser.press('r');
     EXPECT_TRUE(
         is("document.querySelector('#name').textContent === document.querySelector('h1').textContent.match(/^Use (.*): /)[1]"));
-    const std::pair<char, const char*> modes[] = {
-        {'1', "divider"}, {'2', "truth"}, {'3', "row"}, {'4', "difference"}, {'5', "signed"}};
+    const std::pair<char, const char*> modes[] = {{'1', "divider"},    {'2', "truth"},  {'3', "row"},
+                                                  {'4', "difference"}, {'5', "signed"}, {'6', "flip"}};
     for (const auto& [key, mode] : modes) {
         browser.press(key);
         EXPECT_TRUE(is(std::string("document.querySelector('#modes [aria-pressed=true]').dataset.mode === '") + mode + "'"))
             << key;
     }
+    EXPECT_TRUE(
+        is("document.querySelector('.tag.left').textContent === 'FLIP against the truth' && "
+           "!document.querySelector('#flips').hidden"));
+    // The brighter, the larger; the last row is that of the largest error. Most of the picture is the truth's.
+    browser.value("document.querySelector('.rows tbody tr:last-child').click()");
+    EXPECT_TRUE(
+        is("document.querySelector('.rows .chosen') === document.querySelector('.rows tbody tr:last-child') && "
+           "!document.querySelector('#flips').hidden"));
+    const json lit = browser.value(
+        "(() => { const c = document.querySelector('#left'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; "
+        "let n = "
+        "0; for (let i = 0; i < d.length; i += 4) n += d[i] + d[i + 1] + d[i + 2] > 60; return n / (c.width * c.height); })()");
+    EXPECT_GT(lit, 0);
+    EXPECT_LT(lit, .6);
     browser.press('f');
     EXPECT_TRUE(is("document.querySelector('.tag.left').textContent === 'truth'"));
     browser.press('1'), browser.press('[');

@@ -192,13 +192,14 @@ TEST(Answers, RestOnTheModeledTimesOfTheGpuThatTheyAreFor) {
     double error = .01, ms = 4;
     for (const auto& [technique, cost] : modeled) {
         report.rows.push_back(row(fmt::format("transparency/{}", technique), error *= 2, ms /= 2));
-        report.rows.back().modeled = ModeledCost{.kilocycles = cost, .ms = cost};
+        report.rows.back().modeled = ModeledCost{.kilocycles = cost, .ms = cost, .missing = cost ? "" : "nothing counts it"};
     }
     report.rows.back().accuracy.technique_errors.clear();
     EXPECT_EQ(answer_of(report).recommended, 1u) << ".32 / .8; without a modeled time there is no answer";
     EXPECT_THAT(as_text(answer_lines(report)),
                 AllOf(testing::StartsWith("times are modeled for ps4: instructions alone, no memory, no blending\n"),
-                      HasSubstr("use moments (rmse 0.04, 0.40x, ")));
+                      HasSubstr("\nwithout a modeled time: weighted, which therefore take no part (nothing counts it)\n"),
+                      HasSubstr("use moments (rmse 0.04, 0.40x modeled, ")));
     report.question.gpu.clear();
     EXPECT_EQ(answer_of(report).recommended, 2u) << "measured ones: .5 ms";
     report.device = {.name = "A GPU"};

@@ -394,7 +394,7 @@ TEST(Report, AnswersWhichTechniqueKeepsAnErrorAndATime) {
          {"--techniques nothing", "--techniques 'weighted weight=w0'", "--techniques lighting/tiled", "--error nan", "--error 0",
           "--error 2", "--error relative:", "--techniques 'weighted weight=w7 weight=w8'", "--within -2x", "--within 2y",
           "--within 2us", "--memory 0", "--cost cycles", "--cost cycles:nothing", "--cost cycles:h200", "--cost frames",
-          "--defaults --techniques weighted"})
+          "--cost memory", "--defaults --techniques weighted"})
         EXPECT_EQ(strata(std::string("report panes.strata ") + wrong).code, 2) << wrong;
     const Finished open = strata("-v report panes.strata --repeats 1 --techniques weighted --error 1e-9% --within 1000x");
     EXPECT_THAT(open, Refuses(1, "report.no_answer", "capture=panes.strata"));

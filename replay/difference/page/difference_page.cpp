@@ -84,7 +84,7 @@ std::string limits_text(const ErrorLimits& limits) {
     if (limits.region)
         each.push_back(fmt::format("up to {:g} % of any {} x {} pixels", *limits.region, region_block, region_block));
     if (limits.hard_limit < ErrorLimits::none) each.push_back(fmt::format("no pixel by more than {:g}", limits.hard_limit));
-    each.push_back(fmt::format("depth up to {}", plural(limits.ulps, "ULP")));
+    if (limits.ulps > 0) each.push_back(fmt::format("depth up to {}", plural(limits.ulps, "ULP")));
     if (!limits.images.empty()) each.push_back(fmt::format("of {}", fmt::join(limits.images, ", ")));
     if (!limits.ignored.boxes.empty()) each.push_back(plural(limits.ignored.boxes.size(), "box") + " ignored");
     if (!limits.ignored.mask.empty())
@@ -98,6 +98,11 @@ std::string side_text(const Side& side) {
     if (!side.capture.empty()) each.push_back("capture " + side.capture);
     if (!side.device.empty()) each.push_back(fmt::format("{} ({})", side.device, side.driver));
     return fmt::format("{}", fmt::join(each, ", "));
+}
+
+/// "transparency: color"; of files the image alone.
+std::string divergence_text(const Divergence& first) {
+    return (first.pass == label_of_files ? "" : first.pass + ": ") + first.image;
 }
 
 /// An image of a pass of a frame.
@@ -177,7 +182,7 @@ private:
         }
         const auto frame =
             std::ranges::find_if(comparison_.frames, [](const FrameComparison& each) { return !each.divergence.pass.empty(); });
-        return fmt::format("Over tolerance: {}: {} differs first{}", frame->divergence.pass, frame->divergence.image,
+        return fmt::format("Over tolerance: {} differs first{}", divergence_text(frame->divergence),
                            comparison_.frames.size() > 1 ? fmt::format(", in frame {}", frame->frame) : "");
     }
 
@@ -198,8 +203,8 @@ private:
             if (frame.divergence.pass.empty()) continue;
             if (++diverge > most_told) continue;
             ++told;
-            add(fmt::format("frame {}", frame.frame),
-                fmt::format("{}: {}; {}", frame.divergence.pass, frame.divergence.image, frame.divergence.step));
+            const std::string step = frame.divergence.step.empty() ? "" : "; " + frame.divergence.step;
+            add(fmt::format("frame {}", frame.frame), divergence_text(frame.divergence) + step);
         }
         if (diverge > told) add("frames", plural(diverge - told, "more frame") + " over tolerance");
         return text;

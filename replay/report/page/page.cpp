@@ -103,6 +103,13 @@ private:
             bytes += report_.rows[i].picture->png.size();
             has_picture_[i] = bytes * 4 / 3 <= page_picture_bytes;
         }
+        // Maps of the rows that one looks at, as far as there is room.
+        has_flip_.resize(report_.rows.size());
+        for (const std::size_t i : order) {
+            if (!report_.rows[i].on_front && shown_ != i && baseline != i) continue;
+            bytes += report_.rows[i].picture->flip_png.size();
+            has_flip_[i] = has_picture_[i] && bytes * 4 / 3 <= page_picture_bytes;
+        }
     }
 
     std::string provenance() const {
@@ -161,6 +168,12 @@ private:
                            is_there ? fmt::format("<img alt=\"{}\" src=\"{}\">", escaped(short_label(report_.rows[row])),
                                                   png_uri(report_.rows[row].picture->png))
                                     : "<p>no picture: the page would be too large</p>");
+    }
+
+    std::string flip(std::size_t row) const {
+        return has_flip_[row]
+                   ? fmt::format("<img class=\"flip\" hidden alt=\"\" src=\"{}\">", png_uri(report_.rows[row].picture->flip_png))
+                   : "";
     }
 
     /// Truth, the row of the answer and the baseline. Their pictures are those of the sheet, which the script puts here, so that
@@ -320,8 +333,8 @@ private:
         std::string text;
         for (std::size_t i = 0; i < report_.rows.size(); ++i)
             if (report_.rows[i].picture)
-                text += fmt::format("<figure data-i=\"{}\">{}<figcaption>{}<b>{}</b><br>{}</figcaption></figure>\n", i,
-                                    picture(i), mark(report_.rows[i].technique), escaped(short_label(report_.rows[i])),
+                text += fmt::format("<figure data-i=\"{}\">{}{}<figcaption>{}<b>{}</b><br>{}</figcaption></figure>\n", i,
+                                    picture(i), flip(i), mark(report_.rows[i].technique), escaped(short_label(report_.rows[i])),
                                     escaped(error_words(report_.rows[i])));
         return text;
     }
@@ -364,7 +377,7 @@ private:
     Sheet sheet_;
     std::map<std::string, std::size_t> kinds_;  ///< by technique
     std::optional<std::size_t> shown_;          ///< the row that the page opens on
-    std::vector<bool> has_picture_;             ///< by row
+    std::vector<bool> has_picture_, has_flip_;  ///< by row
 };
 
 }  // namespace

@@ -53,17 +53,27 @@ function difference(truth, row, mode) {
 }
 function put(canvas, image) { canvas.width = wide; canvas.height = high; canvas.getContext('2d').putImageData(image, 0, 0); }
 
+async function flipMap(row) {
+  const image = $(`.sheet figure[data-i="${row}"] .flip`);
+  if (!image) return null;
+  await image.decode();
+  const canvas = new OffscreenCanvas(wide, high), context = canvas.getContext('2d');
+  context.drawImage(image, 0, 0);
+  return context.getImageData(0, 0, wide, high);
+}
+
 // ---- the chosen row
 async function view() {
-  const number = state.row, truth = await pixels(-1), row = await pixels(number);
+  const number = state.row, truth = await pixels(-1), row = await pixels(number), map = await flipMap(number);
   if (number !== state.row) return;
-  const mode = state.mode;
+  const mode = state.mode === 'flip' && !map ? 'difference' : state.mode;
+  $('#modes [data-mode=flip]').hidden = !map;
   all('#modes button').forEach(button => button.setAttribute('aria-pressed', button.dataset.mode === mode));
   $('.view').hidden = $('.magnifier').hidden = $('#modes').hidden = !row;
-  $('#classes').hidden = !row || mode === 'signed'; $('#signs').hidden = !row || mode !== 'signed';
+  $('#classes').hidden = !row || mode === 'signed' || mode === 'flip'; $('#signs').hidden = !row || mode !== 'signed'; $('#flips').hidden = !row || mode !== 'flip';
   if (!row) return;
   const left = $('#left'), right = $('#right'), isSplit = mode === 'divider';
-  put(left, mode === 'row' ? row : mode === 'difference' || mode === 'signed' ? difference(truth, row, mode) : truth);
+  put(left, mode === 'flip' ? map : mode === 'row' ? row : mode === 'difference' || mode === 'signed' ? difference(truth, row, mode) : truth);
   right.hidden = $('#divider').hidden = $('.tag.right').hidden = !isSplit;
   if (isSplit) {
     put(right, row);
@@ -71,7 +81,7 @@ async function view() {
     $('#divider').style.left = 100 * state.split + '%';
     $('#divider').setAttribute('aria-valuenow', Math.round(100 * state.split));
   }
-  $('.tag.left').textContent = isSplit || mode === 'truth' ? 'truth' : mode === 'row' ? rows[number].name : 'difference from the truth';
+  $('.tag.left').textContent = isSplit || mode === 'truth' ? 'truth' : mode === 'row' ? rows[number].name : mode === 'flip' ? 'FLIP against the truth' : 'difference from the truth';
   $('.tag.right').textContent = rows[number].name;
   magnify();
 }
@@ -215,12 +225,12 @@ function move(by) { const at = place(); if (!at) return; state.pin = [limit(at[0
 document.addEventListener('keydown', event => {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
   if (/INPUT|SELECT/.test(event.target.tagName)) { if (event.key === 'Escape') event.target.blur(); return; }
-  const modes = ['divider', 'truth', 'row', 'difference', 'signed'], arrow = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key];
+  const modes = ['divider', 'truth', 'row', 'difference', 'signed', 'flip'], arrow = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key];
   const act = {j: () => step(1), k: () => step(-1), f: () => mode(state.mode === 'truth' ? 'row' : 'truth'), d: () => mode(state.mode === 'difference' ? 'divider' : 'difference'),
     '[': () => split(state.split - .05), ']': () => split(state.split + .05), w: () => { state.pin = null; magnify(); }, r: () => choose(data.selected),
     m: () => maps($('#maps').getAttribute('aria-pressed') !== 'true'), t: theme, '/': () => $('#filter').focus(), '?': showKeys}[event.key];
   if (act) act();
-  else if (event.key >= '1' && event.key <= '5') mode(modes[+event.key - 1]);
+  else if (event.key >= '1' && event.key <= '6') mode(modes[+event.key - 1]);
   else if (arrow && event.target.id === 'divider') split(state.split + .02 * arrow[0]);
   else if (arrow && event.target.classList.contains('view')) move(arrow);
   else return;
