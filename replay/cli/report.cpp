@@ -233,7 +233,7 @@ Result<std::vector<std::filesystem::path>> captures_of(const std::vector<std::fi
         for (const auto& entry : std::filesystem::directory_iterator(path, problem))
             if (entry.path().extension() == ".strata") inside.push_back(entry.path());
         if (inside.empty())
-            return fail(Fault::usage, "report.no_capture_in_folder", "the folder {folder} holds no capture (.strata file)",
+            return fail(Fault::bad_input, "report.no_capture_in_folder", "the folder {folder} holds no capture (.strata file)",
                         path.string());
         std::ranges::sort(inside);
         captures.insert(captures.end(), inside.begin(), inside.end());

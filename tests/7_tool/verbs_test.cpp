@@ -415,7 +415,7 @@ TEST(Report, AnswersWhichTechniqueKeepsAnErrorAndATime) {
 
 TEST(Report, OfAFolderIsThatOfItsCaptures) {
     std::filesystem::create_directories(folder() / "golden");
-    EXPECT_THAT(strata("-v report golden"), Refuses(2, "report.no_capture_in_folder", "folder=golden"));
+    EXPECT_THAT(strata("-v report golden"), Refuses(3, "report.no_capture_in_folder", "folder=golden"));
     for (const char* name : {"b", "a"})
         ASSERT_EQ(strata(fmt::format("record three_panes -o golden/{}.strata --size 16x9", name)).code, 0);
     std::ofstream(folder() / "golden/notes.txt") << "no capture";
