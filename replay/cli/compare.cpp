@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "capture_format/container/whole_file.h"
 #include "replay/cli/given_options.h"
 #include "replay/cli/limits.h"
 #include "replay/cli/table_output.h"
@@ -36,12 +35,6 @@ Result<ReportComparison> read_and_compare(const CompareArguments& options) {
     return compare_reports(*std::move(a), *std::move(b), cost_called(options.cost));
 }
 
-Result<void> write(const CompareArguments& options, const std::string& text) {
-    if (!options.output.file.empty()) return write_whole_file(options.output.file, text);
-    write_stdout(text);
-    return {};
-}
-
 Result<void> compare(const CompareArguments& options) {
     if (const auto fits = check_ending(options.output); !fits) return fits;
     const auto limit = parse_limit("--fail-above", options.fail_above, "%", .01);
@@ -49,7 +42,8 @@ Result<void> compare(const CompareArguments& options) {
     auto made = read_and_compare(options);
     if (!made) return made.error();
     made->date = date_of_output();
-    if (const auto done = write(options, in_format(file_format(options.output, OutputFormat::text), *made)); !done) return done;
+    if (const auto done = write_text(options.output, in_format(file_format(options.output, OutputFormat::text), *made)); !done)
+        return done;
     if (*limit) {
         if (const auto holds = check_growth(*made, **limit); !holds) return holds;
         if (const std::size_t rows = rows_not_judged(*made); rows > 0)

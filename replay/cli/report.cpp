@@ -201,12 +201,6 @@ std::string problem_of_positions(std::string& text) {
                             "takes {low} to {high} positions, not '{value}'; write captures before it", 2, 10000, text)};
 }
 
-Result<void> write(const ReportArguments& options, const std::string& text) {
-    if (!options.output.file.empty()) return write_whole_file(options.output.file, text);
-    write_stdout(text);
-    return {};
-}
-
 Result<void> report_hard_cases(const ReportArguments& options) {
     auto rows = variants({.stage = Stage::transparency});
     if (!rows) return rows.error();
@@ -214,7 +208,7 @@ Result<void> report_hard_cases(const ReportArguments& options) {
     const StopAtSignal signal;
     return measure_hard_cases(options.open.device, *rows, progress_line(), signal.token()).and_then([&](auto& made) {
         made.date = date_of_output();
-        const auto done = write(options, in_format(file_format(options.output, OutputFormat::text), made));
+        const auto done = write_text(options.output, in_format(file_format(options.output, OutputFormat::text), made));
         return done && !made.stopped.empty() ? Result<void>(fail(Fault::stopped, "session.stopped", "{progress}", made.stopped))
                                              : done;
     });
@@ -338,7 +332,7 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
         if (deadline.token().stop_requested()) break;
     }
     const std::vector<Report>& made = measured.reports;
-    const auto done = write(options, written(format, made));
+    const auto done = write_text(options.output, written(format, made));
     if (!done) return done;
     if (made.back().stopped.empty() && measured.captures == captures->size()) return check_answered(made);
     const std::string missing = made.back().stopped.empty() ? "stopped before the next frame" : made.back().stopped;

@@ -8,7 +8,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "capture_format/container/whole_file.h"
 #include "replay/cli/verb.h"
+#include "replay/standard_streams.h"
 #include "replay/tables/document.h"
 
 namespace strata {
@@ -61,6 +63,12 @@ OutputFormat printed_format(const TableOutput& output) {
 OutputFormat file_format(const TableOutput& output, OutputFormat otherwise) {
     if (const Ending* ending = ending_of(output.file)) return ending->format;
     return output.json || output.csv ? printed_format(output) : otherwise;
+}
+
+Result<void> write_text(const TableOutput& output, const std::string& text) {
+    if (!output.file.empty()) return write_whole_file(output.file, text);
+    write_stdout(text);
+    return {};
 }
 
 std::string date_of_output() {

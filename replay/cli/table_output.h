@@ -33,6 +33,9 @@ OutputFormat printed_format(const TableOutput&);
 /// By the ending; without one what --json or --csv ask for, else `otherwise`.
 OutputFormat file_format(const TableOutput&, OutputFormat otherwise);
 
+/// Writes to the file, or to standard output where none was asked for.
+Result<void> write_text(const TableOutput&, const std::string& text);
+
 /// The date of what is written, utc_date(): now, or what the environment's SOURCE_DATE_EPOCH says (seconds since 1970).
 std::string date_of_output();
 

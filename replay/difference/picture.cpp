@@ -149,6 +149,16 @@ struct Panel {
     bool has_tick = false;                         ///< at note_at
 };
 
+/// One pixel a texel.
+Canvas canvas_of(const Texels& size, const ColorOf& color) {
+    Canvas canvas(size.width, size.height, paper);
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x)
+            canvas.fill({x, y, 1, 1},
+                        color(static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)));
+    return canvas;
+}
+
 /// How often an image is enlarged, and how wide its panel is.
 int zoom_of(const Texels& image) { return enlargement(image.width, image.height, least_width); }
 int panel_width(const Texels& image) { return std::max(least_width, image.width * zoom_of(image)); }
@@ -361,10 +371,7 @@ Canvas image_picture(std::string_view name, const HostImage& image, const std::s
 PlainPicture plain_picture(std::string_view name, const HostImage& image, const ImageLegend& legend) {
     const Texels shown = texels_of(name, image, 0);
     const Range range = range_of(shown, image.shape.format, legend);
-    Canvas canvas(shown.width, shown.height, paper);
-    for (int y = 0; y < shown.height; ++y)
-        for (int x = 0; x < shown.width; ++x)
-            canvas.fill({x, y, 1, 1}, range.color(shown.values[static_cast<std::size_t>(y * shown.width + x)]));
+    Canvas canvas = canvas_of(shown, [&](std::size_t i) { return range.color(shown.values[i]); });
     if (!legend.colors.empty()) return {std::move(canvas), ""};
     const std::string unit = legend.unit.empty() ? "" : " " + legend.unit, low = text_of(range.low, 4) + unit,
                       high = text_of(range.high, 4) + unit;
@@ -374,7 +381,7 @@ PlainPicture plain_picture(std::string_view name, const HostImage& image, const 
 
 namespace {
 
-/// What a difference shows. The panels refer to the texels.
+/// Panels of a difference with the texels that they refer to.
 struct Difference {
     Texels a, b, alpha_a, alpha_b;
     std::vector<Panel> panels;
@@ -399,7 +406,7 @@ struct Difference {
     Difference& operator=(const Difference&) = delete;
 };
 
-/// What the ends of a panel's legend stand for.
+/// Values at the ends of a panel's legend, and their colors.
 std::string scale_words(const Panel& panel) {
     if (panel.key == "flip") return "0 is black, 1 pale yellow";
     const bool has_signs = !panel.legend(0).x && panel.legend(0).z > 0 && panel.legend(1).x > 0 && !panel.legend(1).z;
@@ -412,16 +419,10 @@ std::string scale_words(const Panel& panel) {
 std::vector<PlainPanel> plain_panels(const ImageComparison& made, const HostImage& a, const HostImage& b) {
     const Difference difference(made, a, b, {});
     std::vector<PlainPanel> plain;
-    for (const Panel& panel : difference.panels) {
-        const int width = difference.a.width, height = difference.a.height;
-        Canvas canvas(width, height, paper);
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x)
-                canvas.fill({x, y, 1, 1}, panel.color(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                                      static_cast<std::size_t>(x)));
-        plain.push_back(
-            {panel.key, panel.label.substr(0, panel.label.find_last_not_of(' ') + 1), scale_words(panel), std::move(canvas)});
-    }
+    plain.reserve(difference.panels.size());
+    for (const Panel& panel : difference.panels)
+        plain.push_back({panel.key, panel.label.substr(0, panel.label.find_last_not_of(' ') + 1), scale_words(panel),
+                         canvas_of(difference.a, panel.color)});
     return plain;
 }
 

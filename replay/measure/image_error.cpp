@@ -114,6 +114,7 @@ ImageError image_error(const HostImage& a, const HostImage& b, const ErrorLimits
     std::vector<bool> is_over(std::size_t(extent.width) * extent.height);
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
         is_over.assign(is_over.size(), false);
+        const std::uint64_t over_before = error.over_limit;
         for (std::uint32_t y = 0; y < extent.height; ++y)
             for (std::uint32_t x = 0; x < extent.width; ++x) {
                 if (limits.ignored.has(x, y)) {
@@ -139,6 +140,7 @@ ImageError image_error(const HostImage& a, const HostImage& b, const ErrorLimits
                 error.over_warn_limit += worst > warn_limit;
                 is_over[std::size_t(y) * extent.width + x] = worst > limit;
             }
+        if (error.over_limit == over_before) continue;
         auto region = worst_region(is_over, extent.width, extent.height);
         if (!region || (error.region && error.region->block_density >= region->block_density)) continue;
         region->layer = layer;

@@ -28,7 +28,7 @@ struct WorstRegion {
     std::uint64_t pixels = 0;  ///< over the limit in the box
 };
 
-/// Of one layer, rows top to bottom; nothing where no pixel is over.
+/// The worst region of one layer, rows top to bottom; nothing where no pixel is over.
 std::optional<WorstRegion> worst_region(const std::vector<bool>& is_over, std::uint32_t width, std::uint32_t height);
 
 }  // namespace strata

@@ -101,6 +101,7 @@ public:
     std::vector<AnswerLine> lines() const {
         std::vector<AnswerLine> lines = answer_.recommended ? recommendation() : nearest();
         lines.front().head = fmt::format("answer{}{} ", names_.over, asked_.error ? " for" : "") + limits(asked_, names_);
+        if (!names_.without_time.empty()) lines.insert(lines.begin(), {"without a modeled time", names_.without_time});
         if (!names_.times_are.empty()) lines.insert(lines.begin(), {"", names_.times_are});
         const auto shown = answer_.recommended ? answer_.recommended : answer_.nearest;
         if (baseline_ && baseline_ != shown && rows_[*baseline_].error)

@@ -35,13 +35,19 @@ struct Answer {
 };
 Answer find_answer(std::span<const Standing>, std::optional<std::size_t> baseline, const Question&);
 
+/// True where times are multiples of the baseline's: modeled ones need that of the baseline.
+inline bool has_time_unit(const Question& asked, std::span<const Standing> rows, std::optional<std::size_t> baseline) {
+    return asked.gpu.empty() || (baseline && rows[*baseline].error);
+}
+
 /// What a sentence needs to know of the rows.
 struct AnswerNames {
     std::vector<std::string> rows;
     RankingError error;
-    std::string unit;                        ///< "alpha_blend"; empty: no time could be measured in units of it
+    std::string unit;                        ///< "alpha_blend"; empty: no time is known in units of it
     std::string baseline_note = {};          ///< what its time contains, or nothing
     std::string times_are = {};              ///< whose they are, as a sentence; or nothing
+    std::string without_time = {};           ///< rows that have none on the GPU that is asked for, and why; or nothing
     std::string over = {};                   ///< " over 3 captures", where errors are of several frames
     std::vector<std::string> worst = {};     ///< by row, behind its error: "in the mean, 17 % on b.strata"; or none
     std::vector<std::string> commands = {};  ///< by row: what replays it; or none

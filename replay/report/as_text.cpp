@@ -178,6 +178,7 @@ std::string times_text(const Report& report) {
 }
 
 std::string without_modeled_time(const Report& report) {
+    if (report.question.gpu.empty()) return {};
     std::vector<std::string> rows;
     std::string why;
     for (const Measurement& row : report.rows) {
@@ -194,11 +195,12 @@ std::vector<AnswerLine> answer_lines(const Report& report) {
         return {{"answer", fmt::format("none; the stage changes fewer than {} pixels of this view", fewest_pixels)}};
     const std::vector<Standing> rows = asked_standings(report);
     const auto baseline = baseline_of(report);
-    const bool has_unit = report.question.gpu.empty() || (baseline && rows[*baseline].error);
+    const bool has_unit = has_time_unit(report.question, rows, baseline);
     AnswerNames names{.rows = {},
                       .error = ranking_error(report),
                       .unit = has_unit ? below_stage(report.time_unit) : "",
-                      .times_are = times_text(report)};
+                      .times_are = times_text(report),
+                      .without_time = without_modeled_time(report)};
     for (const Measurement& row : report.rows) {
         names.rows.push_back(short_label(row));
         names.commands.push_back(command_of(report, row));
@@ -207,10 +209,7 @@ std::vector<AnswerLine> answer_lines(const Report& report) {
         names.baseline_note = fmt::format("its time contains {} ms in which the CPU sorts {} and {}",
                                           short_number(report.rows[*baseline].sort_ms->median),
                                           plural(report.sorted_objects, "object"), plural(report.sorted_particles, "particle"));
-    std::vector<AnswerLine> lines = answer_lines(rows, baseline, report.question, names);
-    if (const std::string missing = without_modeled_time(report); !missing.empty())
-        lines.insert(lines.begin() + 1, {"without a modeled time", missing});
-    return lines;
+    return answer_lines(rows, baseline, report.question, names);
 }
 
 std::string command_of(const Report& report, const Measurement& row) {

@@ -59,10 +59,31 @@ RowPicture row_picture(const ShownPicture& row, const ShownPicture& truth) {
         made.worst_x = std::uint32_t(i % row.width), made.worst_y = std::uint32_t(i / row.width);
     }
     made.png = encode_png(row.width, row.height, 4, rgba);
+    return made;
+}
+
+std::vector<std::byte> flip_png(const ShownPicture& row, const ShownPicture& truth) {
     std::vector<Rgb> map;
     for (const float flip : display_flip(truth.light, row.light).map) map.push_back(magma(double(flip)));
-    made.flip_png = encode_png(row.width, row.height, 3, std::as_bytes(std::span(map)));
-    return made;
+    return encode_png(row.width, row.height, 3, std::as_bytes(std::span(map)));
+}
+
+/// For each row whether a page begins with it or sets it off: those of the front and of the answer, the baseline, the most
+/// accurate. Maps of FLIP take a second each where pictures are large.
+std::vector<bool> rows_looked_at(const Report& report) {
+    std::vector<bool> looked_at(report.rows.size());
+    const Answer answer = answer_of(report);
+    for (const auto row : {answer.recommended, answer.nearest, baseline_of(report)})
+        if (row) looked_at[*row] = true;
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < report.rows.size(); ++i) {
+        const Measurement& row = report.rows[i];
+        if (row.on_front) looked_at[i] = true;
+        if (!row.is_measured() || row.has_other_truth) continue;
+        if (!best || ranking_metric(row).value < ranking_metric(report.rows[*best]).value) best = i;
+    }
+    if (best) looked_at[*best] = true;
+    return looked_at;
 }
 
 /// Makes pictures of one stage of one frame.
@@ -115,11 +136,13 @@ Result<void> add_pictures(Session& session, const ReportRequest& wanted, std::sp
     if (!truth && truth.error().fault == Fault::usage) return {};
     if (!truth) return truth.error();
     report.truth_picture = png_of(*truth);
+    const std::vector<bool> looked_at = rows_looked_at(report);
     for (std::size_t i = 0; i < report.rows.size(); ++i) {
         if (!report.rows[i].is_measured() || truths.of_row[i] != 0) continue;
         const auto row = pictures.of(all[i].request);
         if (!row) return row.error();
         report.rows[i].picture = row_picture(*row, *truth);
+        if (looked_at[i]) report.rows[i].picture->flip_png = flip_png(*row, *truth);
     }
     return {};
 }

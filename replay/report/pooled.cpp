@@ -63,7 +63,7 @@ std::optional<double> rms_of(std::span<const Source> rows, const RankingError& e
     return pixels > 0 ? std::optional(std::sqrt(squares / pixels)) : std::nullopt;
 }
 
-/// Of the geometric mean of times, from their own spreads.
+/// Spread of the geometric mean of times, from their own spreads.
 double spread_of_mean(double mean, std::span<const Standing> of) {
     double squares = 0;
     for (const Standing& each : of) squares += each.time > 0 ? std::pow(each.spread / each.time, 2) : 0;
@@ -238,11 +238,12 @@ std::vector<AnswerLine> answer_lines(const Pool& pool) {
         return {{"answer", fmt::format("none; the stage changes fewer than {} pixels of each frame", fewest_pixels)}};
     const std::vector<Standing> rows = asked_standings(pool);
     const auto baseline = baseline_of(pool);
-    const bool has_unit = pool.question.gpu.empty() || (baseline && rows[*baseline].error);
+    const bool has_unit = has_time_unit(pool.question, rows, baseline);
     AnswerNames names{.rows = {},
                       .error = pool.error,
                       .unit = has_unit && !pool.time_unit.empty() ? below_stage(pool.time_unit) : "",
                       .times_are = pool.times_are,
+                      .without_time = pool.without_modeled_time,
                       .over = " over " + frames_text(pool)};
     for (const PooledRow& row : pool.rows) {
         names.rows.push_back(short_label(row));
@@ -250,10 +251,7 @@ std::vector<AnswerLine> answer_lines(const Pool& pool) {
         const std::string mean = pool.captures > 1 ? fmt::format("in the mean, {} ", pool.error.text(row.worst_error)) : "";
         names.worst.push_back(fmt::format("{}on {}", mean, row.worst_frame));
     }
-    std::vector<AnswerLine> lines = answer_lines(rows, baseline, pool.question, names);
-    if (!pool.without_modeled_time.empty())
-        lines.insert(lines.begin() + 1, {"without a modeled time", pool.without_modeled_time});
-    return lines;
+    return answer_lines(rows, baseline, pool.question, names);
 }
 
 }  // namespace strata

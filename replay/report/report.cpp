@@ -256,11 +256,11 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
     }
     if (!wanted.question.gpu.empty() && report.stopped.empty())
         if (const auto added = add_modeled_costs(session, wanted, report, progress); !added) return added.error();
+    if (report.is_timed) mark_fronts(report.rows);
     if (wanted.wants_pictures) {
         tell("pictures", 1);
         if (const auto added = add_pictures(session, wanted, *all, *row_truths, report); !added) return added.error();
     }
-    if (report.is_timed) mark_fronts(report.rows);
     std::ranges::stable_sort(report.rows, {}, [](const Measurement& row) {
         return std::tuple(!row.is_measured(), row.has_other_truth, row.is_measured() ? ranking_metric(row).value : 0);
     });

@@ -64,7 +64,7 @@ struct ReportRequest {
 struct RowPicture {
     std::vector<std::byte> png;              ///< RGBA; what shows as the truth does is transparent
     std::uint32_t worst_x = 0, worst_y = 0;  ///< the pixel that is furthest from the truth's, as sRGB encodes both
-    std::vector<std::byte> flip_png;         ///< FLIP's map in colors of magma(): RGB
+    std::vector<std::byte> flip_png;         ///< FLIP's map in colors of magma(): RGB; empty where a page does not show it
 };
 
 /// On a GPU that need not be there: modeled_cost.h.

@@ -144,7 +144,7 @@ struct WorstTexel {
     glm::dvec4 got{0}, wanted{0};
 };
 
-/// What a row's errors rest on: little of a picture, or one sample of a frame, decides nothing about others.
+/// Ground that a row's errors stand on: little of a picture, or one sample of a frame, decides nothing about others.
 struct Footing {
     std::size_t pixels = 0;      ///< that the stage changes and that are compared
     double clipped_share = 0;    ///< DisplayError::clipped_share

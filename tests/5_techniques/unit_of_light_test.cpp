@@ -179,7 +179,8 @@ double brightest_color(Session& session, std::size_t frame, const char* techniqu
     return most;
 }
 
-/// What a lamp lights is stored as well whatever its range is: it lights the scene, not what lies at a quarter of the range.
+/// Surfaces that a lamp lights are stored as well whatever its range is: it lights the scene, not what lies at a quarter of the
+/// range.
 TEST(UnitOfLight, OfALampIsThatOfWhatItLights) {
     std::vector<Frame> frames;
     for (const float range : {100.f, 1e3f, 1e5f, 1e6f}) {

@@ -35,7 +35,7 @@ struct TextBox {
     bool meets(const TextBox& b) const { return x0 < b.x1 && b.x0 < x1 && y0 < b.y1 && b.y0 < y1; }
 };
 
-/// Of the letters: half a text's height above and below its middle, .55 of it wide each.
+/// Boxes around letters: half a text's height above and below its middle, .55 of it wide each.
 std::vector<TextBox> labels_of(const std::string& svg) {
     std::vector<TextBox> boxes;
     const std::regex label(

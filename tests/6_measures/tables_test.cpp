@@ -236,7 +236,7 @@ TEST(Warnings, NameTheRowThatTwoMetricsPlaceFurthestApart) {
     const Footing footing{.pixels = 5000};
     Report report{.rows = {judged_row("weighted", .01, .4, footing), judged_row("k_buffer", .02, .1, footing),
                            judged_row("moments", .03, .2, footing), judged_row("wavelet", .04, .3, footing)}};
-    // Of six pairs three are ordered alike: tau = 0.
+    // Three of six pairs are ordered alike: tau = 0.
     const auto warnings = warnings_of(report);
     ASSERT_THAT(ids_of(warnings), ElementsAre("metrics_disagree"));
     EXPECT_THAT(warnings[0].text, HasSubstr("(rank agreement 0.00): weighted is number 1 of 4 by the one and number 4"));

@@ -8,8 +8,11 @@
 
 #include <chrono>
 #include <csignal>
+#include <regex>
 #include <stdexcept>
 #include <thread>
+
+#include "tests/7_tool/process.h"
 
 extern char** environ;
 
@@ -37,6 +40,12 @@ std::array<int, 2> pipe_of_high_numbers() {
 }
 
 }  // namespace
+
+std::filesystem::path page() { return folder() / "page.html"; }
+
+bool asks_a_network(const std::string& html) {
+    return std::regex_search(html, std::regex("(src|href)=\"?https?:|url\\(https?:|@import"));
+}
 
 bool Browser::is_there() { return std::filesystem::exists(program); }
 

@@ -11,6 +11,12 @@
 
 namespace strata {
 
+/// The page of a test, which it has written: page.html in its folder.
+std::filesystem::path page();
+
+/// Whether a page would load anything from a network.
+bool asks_a_network(const std::string& html);
+
 class Browser {
 public:
     /// Whether chromium-headless-shell is installed.

@@ -1,7 +1,6 @@
 // strata report -o page.html: what the file holds, and what it does in a browser.
 #include <cmath>
 #include <fstream>
-#include <regex>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,8 +18,6 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
-
-std::filesystem::path page() { return folder() / "page.html"; }
 
 /// Writes a page of panes whose question the baseline does not answer.
 void make_page() {
@@ -72,7 +69,7 @@ TEST(Page, HoldsTheAnswerThePicturesAndTheTableInOneFile) {
     const std::string text = file_text(page());
     EXPECT_LT(text.size(), 5'000'000u);
     EXPECT_THAT(text, Not(HasSubstr("{{")));
-    EXPECT_FALSE(std::regex_search(text, std::regex("(src|href)=\"?https?:|url\\(https?:|@import")));
+    EXPECT_FALSE(asks_a_network(text));
     const json data = data_of(text);
     const std::string chosen = data["rows"][std::size_t(data["selected"])]["name"];
     EXPECT_THAT(text, HasSubstr("<h1>Use " + chosen + ": "));

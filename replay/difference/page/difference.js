@@ -1,7 +1,6 @@
 'use strict';
 const root = document.documentElement;
 const $ = (which, of = document) => of.querySelector(which), $$ = (which, of = document) => [...of.querySelectorAll(which)];
-root.classList.add('scripted');
 
 // ---- one picture, large: an article's panels by key
 const articles = $$('article[data-name]'), viewer = $('#viewer'), picture = $('#picture'), divider = $('#divider');
@@ -70,23 +69,13 @@ filter.oninput = filterRows;
 differing.onclick = () => { differing.setAttribute('aria-pressed', differing.getAttribute('aria-pressed') !== 'true'); filterRows(); };
 filterRows();
 
-// ---- the rest
-for (const button of $$('.copy')) button.onclick = async () => {
-  await navigator.clipboard.writeText(button.previousElementSibling.textContent);
-  button.textContent = 'copied';
-};
-function theme() {
-  const dark = (root.dataset.theme || (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light')) === 'dark';
-  root.dataset.theme = dark ? 'light' : 'dark';
-}
-$('#theme').onclick = theme;
-$('#keys-button').onclick = () => { $('#keys').open = true; $('#keys').scrollIntoView(); };
-const keys = {f: () => show(at, mode === 'a' ? 'b' : 'a'), j: () => show(at + 1, mode), k: () => show(at - 1, mode),
+// ---- keys
+const actions = {f: () => show(at, mode === 'a' ? 'b' : 'a'), j: () => show(at + 1, mode), k: () => show(at - 1, mode),
   1: () => show(at, 'divider'), 2: () => show(at, 'a'), 3: () => show(at, 'b'), 4: () => show(at, 'difference'), 5: () => show(at, 'flip'),
   '[': () => { divider.value -= 2; split(); }, ']': () => { divider.value = +divider.value + 2; split(); }, Escape: close};
 addEventListener('keydown', event => {
   if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches('input[type=search]')) return;
-  if (event.key === 't') theme();
-  else if (!viewer.hidden && keys[event.key]) { keys[event.key](); event.preventDefault(); }
+  if (event.key === 't') page.theme();
+  else if (!viewer.hidden && actions[event.key]) { actions[event.key](); event.preventDefault(); }
 });
 root.dataset.ready = '1';

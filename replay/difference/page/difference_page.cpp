@@ -148,6 +148,7 @@ public:
                                         {"articles", articles()},
                                         {"table", table()},
                                         {"text", escaped(as_text(comparison_))},
+                                        {"pages_js", std::string(pages_js)},
                                         {"js", std::string(difference_js)}});
     }
 

@@ -37,23 +37,11 @@ std::string error_words(const Measurement& row) {
     return fmt::format("{} % of white, {}", percent, seen_as(metric.value).words);
 }
 
-std::string time_words(const Report& report, const Measurement& row) {
-    if (!report.is_timed) return "";
-    const std::string unit = below_stage(report.time_unit);
-    if (!report.question.gpu.empty()) {
-        const std::vector<Standing> asked = asked_standings(report);
-        const Standing& own = asked[std::size_t(&row - report.rows.data())];
-        return own.error ? fmt::format("{:.2f} \u00d7 the modeled time of {} on {}", own.time, unit, report.question.gpu)
-                         : "a time that no model knows";
-    }
-    if (row.time) return fmt::format("{:.2f} \u00d7 the time of {}", row.time->median, unit);
-    return short_number(row.stage_ms.median) + " ms";
-}
-
 /// The parts of a page; each fills a place of page.html.
 class HtmlPage {
 public:
-    explicit HtmlPage(const Report& report) : report_(report), answer_(answer_of(report)), sheet_(sheet_of(report)) {
+    explicit HtmlPage(const Report& report)
+        : report_(report), asked_(asked_standings(report)), answer_(answer_of(report)), sheet_(sheet_of(report)) {
         for (const Measurement& row : report.rows)
             if (!kinds_.contains(row.technique)) kinds_.emplace(row.technique, kinds_.size());
         choose_pictures();
@@ -80,6 +68,7 @@ public:
             {"left_out", left_out()},
             {"measured", measured()},
             {"data", data()},
+            {"pages_js", std::string(pages_js)},
             {"js", std::string(page_js)}};
         return filled(page_html, parts);
     }
@@ -106,10 +95,22 @@ private:
         // Maps of the rows that one looks at, as far as there is room.
         has_flip_.resize(report_.rows.size());
         for (const std::size_t i : order) {
-            if (!report_.rows[i].on_front && shown_ != i && baseline != i) continue;
+            if (report_.rows[i].picture->flip_png.empty()) continue;
             bytes += report_.rows[i].picture->flip_png.size();
             has_flip_[i] = has_picture_[i] && bytes * 4 / 3 <= page_picture_bytes;
         }
+    }
+
+    std::string time_words(const Measurement& row) const {
+        if (!report_.is_timed) return "";
+        const std::string unit = below_stage(report_.time_unit);
+        if (!report_.question.gpu.empty()) {
+            const Standing& own = asked_[std::size_t(&row - report_.rows.data())];
+            return own.error ? fmt::format("{:.2f} \u00d7 the modeled time of {} on {}", own.time, unit, report_.question.gpu)
+                             : "a time that no model knows";
+        }
+        if (row.time) return fmt::format("{:.2f} \u00d7 the time of {}", row.time->median, unit);
+        return short_number(row.stage_ms.median) + " ms";
     }
 
     std::string provenance() const {
@@ -128,8 +129,7 @@ private:
             return fmt::format("No answer: {} changes fewer than {} pixels of this view", name(report_.stage), fewest_pixels);
         if (!shown_) return "No technique can do this frame";
         const Measurement& row = report_.rows[*shown_];
-        const std::string facts =
-            fmt::format("{}{}{}", error_words(row), report_.is_timed ? ", at " : "", time_words(report_, row));
+        const std::string facts = fmt::format("{}{}{}", error_words(row), report_.is_timed ? ", at " : "", time_words(row));
         if (!report_.question.is_asked())
             return fmt::format("{} is the most accurate of {}: {}", short_label(row), plural(report_.rows.size(), "row"), facts);
         if (!answer_.recommended)
@@ -150,8 +150,9 @@ private:
     /// Its last line, a command, has a place of its own, and so has the one on the times.
     std::string answer() const {
         std::string text;
+        const std::string times = times_text(report_);
         for (const AnswerLine& line : answer_lines(report_)) {
-            if (line.head == replay_head || line.text == times_text(report_)) continue;
+            if (line.head == replay_head || line.text == times) continue;
             text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(line.head), escaped(line.text));
         }
         return text.empty() ? "" : "<dl>\n" + text + "</dl>\n";
@@ -359,8 +360,7 @@ private:
             const Measurement& row = report_.rows[i];
             ordered_json made{{"name", short_label(row)}, {"technique", row.technique}, {"front", row.on_front}};
             if (row.is_measured()) {
-                made["says"] =
-                    fmt::format("{}{}{}", error_words(row), report_.is_timed ? " \u00b7 " : "", time_words(report_, row));
+                made["says"] = fmt::format("{}{}{}", error_words(row), report_.is_timed ? " \u00b7 " : "", time_words(row));
                 made["command"] = command_of(report_, row);
             } else made["says"] = row.accuracy.not_supported;
             if (has_picture_[i]) made["worst"] = {row.picture->worst_x, row.picture->worst_y};
@@ -373,6 +373,7 @@ private:
     }
 
     const Report& report_;
+    std::vector<Standing> asked_;
     Answer answer_;
     Sheet sheet_;
     std::map<std::string, std::size_t> kinds_;  ///< by technique

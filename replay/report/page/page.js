@@ -2,7 +2,6 @@
 (() => {
 const $ = selector => document.querySelector(selector), all = selector => [...document.querySelectorAll(selector)];
 const root = document.documentElement, data = JSON.parse($('#data').textContent), rows = data.rows, wide = data.width, high = data.height;
-root.classList.add('scripted');
 const state = {row: data.selected, hovered: -1, mode: 'divider', split: .5, pin: null, hidden: new Set(), text: '', front: false, sort: -2, down: false};
 const around = 5;  // pixels that the magnifier shows beside its middle, each way
 
@@ -194,11 +193,6 @@ $('.view').addEventListener('pointerup', () => { drags = false; });
 $('.view').addEventListener('pointerleave', () => magnify());
 $('.view').addEventListener('click', event => { if (dragged) dragged = false; else { state.pin = pixelAt(share(event)); magnify(); } });
 $('#worst').addEventListener('click', () => { state.pin = null; magnify(); });
-all('.copy').forEach(button => button.addEventListener('click', async () => {
-  const code = button.previousElementSibling;
-  try { await navigator.clipboard.writeText(code.textContent); button.textContent = 'copied'; } catch { getSelection().selectAllChildren(code); button.textContent = 'selected'; }
-  setTimeout(() => { button.textContent = 'copy'; }, 1500);
-}));
 
 // ---- small pictures, and those on top, which are copies of them
 async function maps(on) {
@@ -217,10 +211,7 @@ all('.pic[data-copy]').forEach(picture => {
   if (image) picture.append(image.cloneNode()); else picture.closest('figure').hidden = true;
 });
 
-// ---- theme and keys
-function theme() { root.dataset.theme = styles().colorScheme === 'dark' ? 'light' : 'dark'; }
-function showKeys() { $('#keys').open = true; $('#keys').scrollIntoView({block: 'center'}); }
-$('#theme').addEventListener('click', theme); $('#keys-button').addEventListener('click', showKeys);
+// ---- keys
 function move(by) { const at = place(); if (!at) return; state.pin = [limit(at[0] + by[0], wide - 1), limit(at[1] + by[1], high - 1)]; magnify(); }
 document.addEventListener('keydown', event => {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
@@ -228,7 +219,7 @@ document.addEventListener('keydown', event => {
   const modes = ['divider', 'truth', 'row', 'difference', 'signed', 'flip'], arrow = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key];
   const act = {j: () => step(1), k: () => step(-1), f: () => mode(state.mode === 'truth' ? 'row' : 'truth'), d: () => mode(state.mode === 'difference' ? 'divider' : 'difference'),
     '[': () => split(state.split - .05), ']': () => split(state.split + .05), w: () => { state.pin = null; magnify(); }, r: () => choose(data.selected),
-    m: () => maps($('#maps').getAttribute('aria-pressed') !== 'true'), t: theme, '/': () => $('#filter').focus(), '?': showKeys}[event.key];
+    m: () => maps($('#maps').getAttribute('aria-pressed') !== 'true'), t: page.theme, '/': () => $('#filter').focus(), '?': page.showKeys}[event.key];
   if (act) act();
   else if (event.key >= '1' && event.key <= '6') mode(modes[+event.key - 1]);
   else if (arrow && event.target.id === 'divider') split(state.split + .02 * arrow[0]);
