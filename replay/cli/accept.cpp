@@ -1,4 +1,5 @@
 // strata accept: the only way expectations are written. Shows what differs from what was expected before, then writes.
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -8,6 +9,7 @@
 #include "capture_format/expectation_writer.h"
 #include "capture_format/reader.h"
 #include "passes/frame_images.h"
+#include "replay/cli/expected_results.h"
 #include "replay/cli/left_out.h"
 #include "replay/cli/repeat.h"
 #include "replay/cli/verb_options.h"
@@ -26,7 +28,10 @@ struct AcceptArguments {
     OpenOptions open;
     ChoiceOptions choices;
     std::string frames;
-    bool with_images = false, dry_run = false, json = false;
+    std::filesystem::path to;  ///< empty: the capture itself
+    bool also = false, with_images = false, dry_run = false, json = false;
+
+    const std::filesystem::path& target() const { return to.empty() ? open.capture : to; }
 };
 
 /// What a frame gave beside what was expected of it.
@@ -34,26 +39,42 @@ struct Candidate {
     Expectation expectation;
     Run run;
     std::optional<ExpectationVerdict> before;  ///< against what this device was expected to give
-    bool lacks_images = false;                 ///< the old expectation has hashes alone, and images are wanted
-    bool is_news() const { return !before || before->agreement != Agreement::exact || lacks_images; }
+    std::size_t accepted = 0;                  ///< results that this device was expected to give
+    bool lacks_images = false;                 ///< only hashes of some of its images are kept, and images are wanted
+
+    bool replaces_several() const { return accepted > 1 && !expectation.also; }
+    bool is_news() const { return !before || before->agreement != Agreement::exact || replaces_several() || lacks_images; }
 };
 
+/// Whether one of the accepted results keeps an image as the new one has it, for every image.
+bool keep_images(std::span<const Expectation* const> accepted, const Expectation& got) {
+    for (std::size_t i = 0; i < got.passes.size(); ++i)
+        for (const ExpectedImage& image : got.passes[i].images) {
+            const auto keeps = [&](const ExpectedImage& old) {
+                return old.name == image.name && old.hash == image.hash && !old.texels.empty();
+            };
+            const auto some = [&](const Expectation* each) { return std::ranges::any_of(each->passes[i].images, keeps); };
+            if (std::ranges::none_of(accepted, some)) return false;
+        }
+    return true;
+}
+
 Result<Candidate> replay_candidate(Session& session, const Request& request, const AcceptArguments& options,
-                                   const std::vector<Expectation>& known) {
+                                   const ExpectedResults& expected) {
     auto run = session.run(request);
     if (!run) return run.error();
     // What varies can be no expectation.
     if (const auto same = check_repeats(session, request, *run, 2); !same) return same.error();
     Candidate candidate{.expectation = expectation_of(session, request, *run), .run = *std::move(run)};
     candidate.expectation.tool = tool_revision;
-    if (const Expectation* old = newest_for(known, candidate.expectation)) {
-        auto verdict = compare_with(*session.capture(), *old, candidate.run, candidate.expectation, 0);
-        if (!verdict) return verdict.error();
-        candidate.before = *std::move(verdict);
-        for (const ExpectedPass& pass : old->passes)
-            for (const ExpectedImage& image : pass.images)
-                candidate.lacks_images = candidate.lacks_images || (options.with_images && image.texels.empty());
-    }
+    candidate.expectation.also = options.also;
+    const auto accepted = accepted_for(expected.expectations, candidate.expectation);
+    if (accepted.empty()) return candidate;
+    auto verdict = compare_with(expected.capture(session), accepted, candidate.run, candidate.expectation, 0);
+    if (!verdict) return verdict.error();
+    candidate.before = *std::move(verdict);
+    candidate.accepted = accepted.size();
+    candidate.lacks_images = options.with_images && !keep_images(accepted, candidate.expectation);
     return candidate;
 }
 
@@ -72,7 +93,8 @@ void for_images(const Candidate& candidate, const Each& each) {
 }
 
 void show(const Candidate& candidate) {
-    to_stdout("frame {} on {}\n", candidate.expectation.frame, text(candidate.expectation.on));
+    to_stdout("frame {} on {}{}\n", candidate.expectation.frame, text(candidate.expectation.on),
+              candidate.replaces_several() ? fmt::format(", replaces {} accepted results", candidate.accepted) : "");
     for_images(candidate, [](const char* state, const auto& pass, const auto& image, const auto& hash, const auto& difference) {
         if (difference.empty()) to_stdout("  {:<8} {:<24} {:<16} {}\n", state, pass, image, hash);
         else to_stdout("  {:<8} {}\n", state, difference);
@@ -80,8 +102,10 @@ void show(const Candidate& candidate) {
 }
 
 ordered_json json_of(const Candidate& candidate) {
-    ordered_json json{
-        {"frame", candidate.expectation.frame}, {"on", text(candidate.expectation.on)}, {"images", ordered_json::array()}};
+    ordered_json json{{"frame", candidate.expectation.frame},
+                      {"on", text(candidate.expectation.on)},
+                      {"accepted_results", candidate.accepted},
+                      {"images", ordered_json::array()}};
     for_images(candidate, [&](const char* state, const auto& pass, const auto& image, const auto& hash, const auto&) {
         json["images"].push_back({{"state", state}, {"pass", pass}, {"image", image}, {"hash", hash}});
     });
@@ -103,9 +127,9 @@ Result<void> accept(const AcceptArguments& options) {
     // Held from before the capture is read: an accept at the same time waits and then reads what this one wrote.
     std::optional<ExpectationWriter> writer;
     if (options.dry_run) {
-        if (const auto whole = ExpectationWriter::check(options.open.capture); !whole) return whole;
+        if (const auto whole = ExpectationWriter::check(options.target()); !whole) return whole;
     } else {
-        auto extended = ExpectationWriter::extend(options.open.capture);
+        auto extended = ExpectationWriter::extend(options.target());
         if (!extended) return extended.error();
         writer = *std::move(extended);
     }
@@ -114,8 +138,8 @@ Result<void> accept(const AcceptArguments& options) {
     const auto frames = frame_indices(options.frames, (*session)->frame_count());
     if (!frames) return frames.error();
 
-    const auto known = expectations_of(*(*session)->capture());
-    if (!known) return known.error();
+    const auto expected = expected_results(**session, options.open, options.to, *frames);
+    if (!expected) return expected.error();
 
     std::size_t news = 0;
     ordered_json json{{"schema", "strata.accept"}, {"schema_version", 2}, {"frames", ordered_json::array()}};
@@ -125,7 +149,7 @@ Result<void> accept(const AcceptArguments& options) {
         show_frame(progress, json["frames"].size(), frames->size());
         request->variant.frame = frame;
         if (const auto told = notes.tell(**session, *request); !told) return told;
-        auto candidate = replay_candidate(**session, *request, options, *known);
+        auto candidate = replay_candidate(**session, *request, options, *expected);
         if (!candidate) return candidate.error();
         json["frames"].push_back(json_of(*candidate));
         if (!options.json) show(*candidate);
@@ -137,7 +161,7 @@ Result<void> accept(const AcceptArguments& options) {
     if (writer)
         if (const auto finished = writer->finish(); !finished) return finished;
     json["accepted_frames"] = options.dry_run ? 0 : news;
-    const std::string file = options.open.capture.string();
+    const std::string file = options.target().string();
     if (options.json) write_stdout(json_text(json));
     else if (news == 0) to_stdout("nothing changed in {}\n", file);
     else if (options.dry_run) to_stdout("{} would be stored anew; {} is not changed (--dry-run)\n", plural(news, "frame"), file);
@@ -158,6 +182,9 @@ std::function<Result<void>()> declare_accept(CLI::App& app) {
     add_options(app, options->open.device);
     add_options(app, options->choices);
     app.add_option("--frames", options->frames, "indices of frames, like 0,4-8; default all");
+    app.add_option("--to", options->to, "store the results in this capture instead, such as the one recorded before a change")
+        ->type_name(extended_file);
+    app.add_flag("--also", options->also, "accept the results beside those accepted before, instead of replacing them");
     app.add_flag("--with-images", options->with_images, "store the images, too; --tolerance and the worst texel need them");
     app.add_flag("--json", options->json, "print JSON instead of text");
     app.add_flag("--dry-run", options->dry_run, "show what would change without writing it");

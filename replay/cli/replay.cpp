@@ -13,6 +13,7 @@
 #include "capture_format/reader.h"
 #include "passes/frame_images.h"
 #include "passes/stages.h"
+#include "replay/cli/expected_results.h"
 #include "replay/cli/given_options.h"
 #include "replay/cli/left_out.h"
 #include "replay/cli/output_picture.h"
@@ -40,6 +41,7 @@ struct ReplayArguments {
     std::vector<std::string> outputs;  ///< none: color, depth_layers and display
     std::size_t repeat = 1, timed = 0;
     std::filesystem::path folder, shaders;  ///< without a folder no file is written
+    std::filesystem::path expect_from;      ///< empty: the capture itself
     std::optional<double> tolerance;
     TableOutput printed;
     std::string date;  ///< utc_date()
@@ -123,12 +125,15 @@ Result<Run> run_once(Session& session, const Request& request, const ReplayArgum
 }
 
 /// Whether a comparison with what the capture expects must take place.
-bool demands_expectations(const ReplayArguments& options) { return options.expect || options.tolerance; }
+bool demands_expectations(const ReplayArguments& options) {
+    return options.expect || options.tolerance || !options.expect_from.empty();
+}
 
 Result<void> check_options(const ReplayArguments& options, const CLI::App& app) {
     if (!demands_expectations(options)) return {};
-    return check_not_given(app, {"--until", "--eye", "--shaders", "--no-expect"},
-                           "--expect and --tolerance compare whole frames, as they were recorded, with what is expected");
+    return check_not_given(
+        app, {"--until", "--eye", "--shaders", "--no-expect"},
+        "--expect, --expect-from and --tolerance compare whole frames, as they were recorded, with what is expected");
 }
 
 bool expects(const Session& session, const ReplayArguments& options) {
@@ -146,9 +151,9 @@ DocumentHead head_of(const Session& session, const ReplayArguments& options) {
             .capture_name = options.open.capture.filename().string()};
 }
 
-/// Compared with what is `known` to be expected, where that is not null.
+/// Compared with the expected results, where that is not null.
 Result<Replayed> replay_frame(Session& session, const Request& request, const ReplayArguments& options,
-                              const std::vector<Expectation>* known) {
+                              const ExpectedResults* expected) {
     auto run = run_once(session, request, options);
     if (!run) return run.error();
     Replayed replayed{.run = *std::move(run)};
@@ -158,9 +163,10 @@ Result<Replayed> replay_frame(Session& session, const Request& request, const Re
     if (options.repeat > 1)
         to_stderr("frame {}: {} repeats, every image of every pass is bit for bit the same\n", request.variant.frame,
                   options.repeat);
-    if (known) {
+    if (expected) {
         replayed.got = expectation_of(session, request, replayed.run);
-        auto verdict = check_expectations(*session.capture(), *known, replayed.run, *replayed.got, options.tolerance.value_or(0));
+        auto verdict = check_expectations(expected->capture(session), expected->expectations, replayed.run, *replayed.got,
+                                          options.tolerance.value_or(0));
         if (!verdict) return verdict.error();
         replayed.verdict = *std::move(verdict);
     }
@@ -177,6 +183,7 @@ Result<Replayed> replay_frame(Session& session, const Request& request, const Re
 /// The command that would make what a frame gave its expectation.
 std::string command_to_accept(const ReplayArguments& options, std::size_t frame) {
     std::string command = fmt::format("strata accept {} --frames {}", shell_word(options.open.capture.string()), frame);
+    if (!options.expect_from.empty()) command += " --to " + shell_word(options.expect_from.string());
     for (const std::string& use : options.choices.uses) command += fmt::format(" --use {}", use);
     for (const std::string& set : options.choices.sets) command += fmt::format(" --set {}", set);
     for (const std::string& force : options.choices.force) command += fmt::format(" --force {}", force);
@@ -298,14 +305,14 @@ Result<void> replay(const ReplayArguments& options) {
         if (const auto made = make_folder(options.folder); !made) return made;
     if (!options.outputs.empty() && options.folder.empty() && !options.printed.json)
         to_stderr("strata: --outputs alone writes nothing: pass -o FOLDER for images, -o FOLDER or --json for tables\n");
-    std::optional<std::vector<Expectation>> known;
+    std::optional<ExpectedResults> expected;
     if (expects(**session, options)) {
-        auto parsed = expectations_of(*(*session)->capture());
-        if (!parsed) return parsed.error();
-        known = *std::move(parsed);
+        auto known = expected_results(**session, options.open, options.expect_from, *frames);
+        if (!known) return known.error();
+        expected = *std::move(known);
     }
 
-    const bool passes = options.repeat > 1 || options.printed.json || known;
+    const bool passes = options.repeat > 1 || options.printed.json || expected;
     request->once = true;
     request->light = LightCheck::on;
     request->passes = passes && options.until.empty() ? Passes::read_back : Passes::not_read;
@@ -319,7 +326,7 @@ Result<void> replay(const ReplayArguments& options) {
         show_frame(progress, i, frames->size());
         request->variant.frame = (*frames)[i];
         if (const auto told = notes.tell(**session, *request); !told) return told;
-        auto replayed = replay_frame(**session, *request, options, known ? &*known : nullptr);
+        auto replayed = replay_frame(**session, *request, options, expected ? &*expected : nullptr);
         if (!replayed) return replayed.error();
         if (const auto done = write_frame(*request, *replayed, options); !done) return done;
         const bool is_text = printed_format(options.printed) == OutputFormat::text;
@@ -378,6 +385,9 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
                  "exit code 1 instead of a warning if a technique does not support a feature of the frame, or if light is not "
                  "finite");
     app.add_flag("--expect", options->expect, "exit code 6 if the capture has no expected results for a frame");
+    app.add_option("--expect-from", options->expect_from,
+                   "compare with the expected results of this capture, frame by frame; exit code 6 if it has none")
+        ->type_name(input_file);
     app.add_flag("--no-expect", options->no_expect, "do not compare with the capture's expected results");
     return [options, &app] {
         options->date = date_of_output();

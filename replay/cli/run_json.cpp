@@ -28,6 +28,7 @@ ordered_json passes_of(const Run& run) {
 ordered_json json_of(const ImageVerdict& verdict) {
     ordered_json json{
         {"pass", verdict.pass}, {"image", verdict.image}, {"hash", verdict.hash}, {"expected", verdict.expected_hash}};
+    if (verdict.accepted > 1) json["accepted_results"] = verdict.accepted;
     if (!verdict.deviation) return json;
     const WorstTexel& w = verdict.deviation->worst;
     json["metric"] = "relative rmse";

@@ -70,6 +70,7 @@ Expectation expectation_from(const ordered_json& json) {
                   .forced = json.at("forced"),
                   .on = on_from(json.at("on")),
                   .tool = json.at("tool"),
+                  .also = json.value("also", false),
                   .passes = {}};
     for (const ordered_json& pass : json.at(keys.passes)) e.passes.push_back(pass_from(pass, keys));
     return e;
@@ -106,6 +107,7 @@ std::string as_json(const Expectation& e) {
                       {"frame", e.frame},   {"samples", e.samples},
                       {"forced", e.forced}, {"on", json_of(e.on)},
                       {"tool", e.tool},     {keys.passes, ordered_json::array()}};
+    if (e.also) json["also"] = true;
     for (const ExpectedPass& pass : e.passes) {
         ordered_json images = ordered_json::array();
         for (const ExpectedImage& image : pass.images) images.push_back(json_of(image));

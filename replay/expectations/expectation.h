@@ -1,6 +1,5 @@
 // What a replay of a frame is expected to give, on one device with one choice of techniques: a hash of every image that every
-// pass wrote, and perhaps the images. A capture keeps any number of them as JSON; the newest for a device, frame and choice
-// counts.
+// pass wrote, and perhaps the images. A capture keeps any number of them as JSON; accepted_for() finds those that count.
 #pragma once
 
 #include <string>
@@ -38,7 +37,8 @@ struct Expectation {
     std::uint32_t samples = 1;        ///< per pixel
     std::vector<std::string> forced;  ///< features, in the order of the command line
     ExpectedOn on;
-    std::string tool;  ///< revision that wrote it
+    std::string tool;   ///< revision that wrote it
+    bool also = false;  ///< those accepted before for this device, frame and choice stay accepted
     std::vector<ExpectedPass> passes;
 };
 

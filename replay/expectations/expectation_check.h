@@ -1,5 +1,5 @@
-// A run against what its capture expects: exact hashes first, then a tolerance where images are kept; and the first pass that
-// is not as it should be.
+// A run against the results accepted for a capture: exact hashes first, then a tolerance where images are kept; and the first
+// pass that is not as it should be. Where several results are accepted, each image may agree with another one of them.
 #pragma once
 
 #include <optional>
@@ -24,8 +24,9 @@ enum class Agreement { exact, within_tolerance, diverges, no_expectation };
 struct ImageVerdict {
     std::string pass, image;
     Agreement agreement = Agreement::exact;
-    std::optional<ImageDeviation> deviation;  ///< where the expected image is kept and the hashes differ
+    std::optional<ImageDeviation> deviation;  ///< from the nearest accepted image that is kept, where no hash is equal
     std::string expected_hash, hash;          ///< either may be empty: an image more, or one less
+    std::size_t accepted = 1;                 ///< results that were accepted
 };
 
 struct ExpectationVerdict {
@@ -36,16 +37,17 @@ struct ExpectationVerdict {
     const ImageVerdict* first_divergence() const;
 };
 
-/// The newest expectation for this device, or null.
-const Expectation* newest_for(std::span<const Expectation>, const Expectation& got);
+/// The results accepted for the device, frame and choice of `got`, newest first: the newest, and those before it up to the one
+/// that replaced all before. Empty where there are none.
+std::vector<const Expectation*> accepted_for(std::span<const Expectation>, const Expectation& got);
 
-/// `got` describes `run`. This device's expectation decides; without one another device's does when it is met exactly, or within
-/// a tolerance above zero.
+/// `got` describes `run`; the capture is the one that keeps the expectations. The results accepted for this device decide;
+/// without any those of another device do when they are met exactly, or within a tolerance above zero.
 Result<ExpectationVerdict> check_expectations(const Capture&, std::span<const Expectation>, const Run& run,
                                               const Expectation& got, double tolerance);
-/// Every image against one expectation.
-Result<ExpectationVerdict> compare_with(const Capture&, const Expectation& expected, const Run& run, const Expectation& got,
-                                        double tolerance);
+/// Every image against the nearest one of the results of accepted_for(), of which there is one or more.
+Result<ExpectationVerdict> compare_with(const Capture&, std::span<const Expectation* const> accepted, const Run& run,
+                                        const Expectation& got, double tolerance);
 
 /// One sentence: which pass and image, how far, the worst texel with both values.
 std::string sentence(const ImageVerdict&);

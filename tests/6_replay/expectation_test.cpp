@@ -18,6 +18,7 @@ namespace strata {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr Shape small{.extent = {4, 2, 1}, .format = Format::r32f};
 
@@ -26,15 +27,17 @@ HostImage image_of(const std::vector<float>& values) {
     return {small, {bytes.begin(), bytes.end()}};
 }
 
-/// A frame of two passes with an image each; the second one's texels are given.
+/// A frame of two passes with an image each; the second one's texels are given, the first one's perhaps.
 struct Given {
     Run run;
     Expectation expectation;
 
-    explicit Given(const std::vector<float>& second, std::string device = "this device") {
+    explicit Given(const std::vector<float>& second, std::string device = "this device")
+        : Given({1, 2, 3, 4, 5, 6, 7, 8}, second, std::move(device)) {}
+    Given(const std::vector<float>& first, const std::vector<float>& second, std::string device = "this device") {
         run.passes = {{Stage::gbuffer, Stage::gbuffer, "gbuffer", "gbuffer/any", {}},
                       {Stage::lighting, Stage::lighting, "lighting", "lighting/any strength=2", {}}};
-        run.passes[0].images["normal"] = image_of({1, 2, 3, 4, 5, 6, 7, 8});
+        run.passes[0].images["normal"] = image_of(first);
         run.passes[1].images["color"] = image_of(second);
         expectation.on = {
             .device = std::move(device), .driver = "driver", .driver_version = "1", .cpu = "cpu", .vector_width = 8};
@@ -45,6 +48,12 @@ struct Given {
         }
     }
 };
+
+/// Accepted beside what was accepted before.
+Given also(Given given) {
+    given.expectation.also = true;
+    return given;
+}
 
 /// A capture that expects what it is told to, in that order.
 class Expecting {
@@ -74,17 +83,31 @@ private:
     std::filesystem::path path_ = std::filesystem::path(testing::TempDir()) / "expecting.strata";
 };
 
-const std::vector<float> plain = {1, 1, 1, 1, 1, 1, 1, 1}, brighter = {1, 1, 1, 1, 1, 1.25f, 1, 1};
+const std::vector<float> plain = {1, 1, 1, 1, 1, 1, 1, 1}, brighter = {1, 1, 1, 1, 1, 1.25f, 1, 1},
+                         darker = {1, 1, 1, 1, 1, .25f, 1, 1};
 
 TEST(Expectation, SurvivesJson) {
     Expectation e = Given(plain).expectation;
     e.frame = 3, e.samples = 4, e.forced = {"rain"}, e.tool = "0123456789ab";
+    e.also = true;
     e.passes[0].images[0].texels = std::string(32, 'a');
     const Expectation again = must(parse_expectation(as_json(e)));
     EXPECT_EQ(as_json(again), as_json(e));
     EXPECT_TRUE(same_frame_and_choices(again, e));
     EXPECT_EQ(again.on, e.on);
     EXPECT_EQ(again.passes[1].images[0].shape, small);
+    EXPECT_TRUE(again.also);
+}
+
+TEST(Expectation, WithoutTheKeyAlsoReplacesWhatWasAcceptedBefore) {
+    const std::string json = as_json(Given(plain).expectation);
+    EXPECT_THAT(json, Not(HasSubstr("also")));
+    EXPECT_FALSE(must(parse_expectation(json)).also);
+    for (const char* value : {"\"yes\"", "1", "null", "[]"}) {
+        const auto parsed = parse_expectation(fmt::format("{{\"also\":{},{}", value, json.substr(1)));
+        ASSERT_FALSE(parsed) << value;
+        EXPECT_EQ(parsed.error().fault, Fault::bad_input) << value;
+    }
 }
 
 TEST(Expectation, OfTheFirstSchemaVersionIsRead) {
@@ -167,6 +190,51 @@ TEST(Expectation, TheNewestForADeviceCounts) {
     EXPECT_EQ(capture.verdict(Given(plain)).agreement, Agreement::diverges);
 }
 
+TEST(Expectation, SeveralAreAcceptedUntilOneReplacesThem) {
+    const Expecting two({Given(plain), also(Given(brighter))});
+    EXPECT_EQ(two.verdict(Given(plain)).agreement, Agreement::exact);
+    EXPECT_EQ(two.verdict(Given(brighter)).agreement, Agreement::exact);
+    EXPECT_EQ(two.verdict(Given(darker)).agreement, Agreement::diverges);
+    const Expecting replaced({Given(plain), also(Given(brighter)), Given(darker), also(Given(brighter))});
+    EXPECT_EQ(replaced.verdict(Given(plain)).agreement, Agreement::diverges);
+    EXPECT_EQ(replaced.verdict(Given(darker)).agreement, Agreement::exact);
+}
+
+TEST(Expectation, EachImageMayAgreeWithAnotherAcceptedResult) {
+    const Expecting two({Given(plain, brighter), also(Given(brighter, plain))});
+    EXPECT_EQ(two.verdict(Given(plain, plain)).agreement, Agreement::exact);
+    const auto verdict = two.verdict(Given(plain, darker));
+    EXPECT_EQ(verdict.agreement, Agreement::diverges);
+    EXPECT_EQ(verdict.first_divergence()->pass, "lighting");
+}
+
+TEST(Expectation, TheNearestAcceptedImageIsNamed) {
+    for (const std::vector<Given>& accepted :
+         {std::vector{Given(plain), also(Given(darker))}, {Given(darker), also(Given(plain))}}) {
+        const Expecting two(accepted, Expecting::Images::kept);
+        const auto diverged = two.verdict(Given(brighter));
+        ASSERT_EQ(diverged.agreement, Agreement::diverges);
+        EXPECT_EQ(diverged.first_divergence()->deviation->worst.wanted.x, 1);
+        EXPECT_THAT(sentence(*diverged.first_divergence()), HasSubstr("the nearest of 2 accepted results"));
+        EXPECT_EQ(two.verdict(Given(brighter), .1).agreement, Agreement::within_tolerance);
+    }
+}
+
+TEST(Expectation, WithoutImagesTheNewestAcceptedResultIsNamed) {
+    const Given newest(darker);
+    const auto verdict = Expecting({Given(plain), also(newest)}).verdict(Given(brighter));
+    const std::string said = sentence(*verdict.first_divergence());
+    EXPECT_THAT(said, HasSubstr(newest.expectation.passes[1].images[0].hash + ", the newest of 2 accepted results"));
+}
+
+TEST(Expectation, ResultsAreAcceptedByDeviceFrameAndChoice) {
+    Given other_frame(plain);
+    other_frame.expectation.frame = 1;
+    const Expecting capture({Given(plain), Given(darker, "elsewhere"), other_frame, also(Given(brighter))});
+    EXPECT_EQ(capture.verdict(Given(plain)).agreement, Agreement::exact);
+    EXPECT_EQ(capture.verdict(Given(darker)).agreement, Agreement::diverges);
+}
+
 TEST(Expectation, OtherChoicesAndOtherFramesExpectNothing) {
     const Expecting capture({Given(plain)});
     Given other_choice(plain), other_frame(plain);
@@ -186,6 +254,13 @@ TEST(Expectation, AnotherDevicesCountsWhenMetExactlyOrWithinATolerance) {
     EXPECT_EQ(capture.verdict(Given(brighter), .01).agreement, Agreement::diverges);
 }
 
+TEST(Expectation, AllThatAnotherDeviceAcceptsCountsAndNothingThatItReplaced) {
+    const Expecting capture({Given(darker, "elsewhere"), Given(plain, "elsewhere"), also(Given(brighter, "elsewhere"))});
+    EXPECT_EQ(capture.verdict(Given(plain)).agreement, Agreement::exact);
+    EXPECT_EQ(capture.verdict(Given(brighter)).agreement, Agreement::exact);
+    EXPECT_EQ(capture.verdict(Given(darker)).agreement, Agreement::no_expectation);
+}
+
 TEST(Expectation, ThisDevicesOwnDecidesEvenWhereAnotherAgrees) {
     const Expecting capture({Given(brighter), Given(plain, "elsewhere")});
     EXPECT_EQ(capture.verdict(Given(plain)).agreement, Agreement::diverges);
@@ -197,6 +272,9 @@ TEST(Expectation, AnImageMoreOrLessDiverges) {
     more.expectation.passes[0].images.insert(more.expectation.passes[0].images.begin(), {"extra", "0", small, ""});
     EXPECT_THAT(sentence(*Expecting({Given(plain)}).verdict(more).first_divergence()), HasSubstr("was not expected at all"));
     EXPECT_THAT(sentence(*Expecting({more}).verdict(Given(plain)).first_divergence()), HasSubstr("is not there"));
+    const Expecting either({more, also(Given(plain))});
+    EXPECT_EQ(either.verdict(more).agreement, Agreement::exact);
+    EXPECT_EQ(either.verdict(Given(plain)).agreement, Agreement::exact);
 }
 
 }  // namespace

@@ -25,16 +25,30 @@ void record_panes() { ASSERT_EQ(strata("record three_panes -o panes.strata").cod
 
 std::string bytes_of_panes() { return file_text(folder() / "panes.strata"); }
 
-/// As if the capture had been accepted by a program that gave other bits for one image.
-void expect_otherwise(const std::string& pass, const std::string& image) {
+/// As if the capture had been accepted by a program that gave other bits for one image; `more` are further keys.
+void expect_otherwise(const std::string& pass, const std::string& image, const json& more = json::object()) {
     const Capture capture = must(Capture::open(folder() / "panes.strata"));
     json expectation = json::parse(capture.expectations().back());
     for (json& of_pass : expectation[expectation_keys(expectation_version).passes])
         for (json& of_image : of_pass["images"])
             if (of_pass[expectation_keys(expectation_version).pass] == pass && of_image["name"] == image)
                 of_image["hash"] = std::string(32, '0');
+    expectation.update(more);
     must(append_expectation(folder() / "panes.strata", expectation.dump()));
 }
+
+json newest_expectation(const std::string& file) {
+    return json::parse(must(Capture::open(folder() / file)).expectations().back());
+}
+
+/// panes.strata as golden.strata, and panes.strata recorded again.
+void record_panes_again() {
+    record_panes();
+    std::filesystem::rename(folder() / "panes.strata", folder() / "golden.strata");
+    record_panes();
+}
+
+std::string bytes_of_golden() { return file_text(folder() / "golden.strata"); }
 
 TEST(Accept, ShowsWhatIsNewThenReplayMeetsIt) {
     record_panes();
@@ -139,6 +153,97 @@ TEST(Accept, ShowsTheFiguresOfWhatChanged) {
     EXPECT_EQ(strata("replay panes.strata").code, 0);
 }
 
+TEST(Accept, AlsoKeepsTheResultsAcceptedBefore) {
+    record_panes();
+    ASSERT_EQ(strata("accept panes.strata").code, 0);
+    expect_otherwise("transparency", "color");
+    ASSERT_EQ(strata("replay panes.strata").code, 1);
+    const Finished accepted = strata("accept panes.strata --also");
+    EXPECT_THAT(accepted.out, HasSubstr("changed  transparency: 'color' has hash"));
+    EXPECT_EQ(newest_expectation("panes.strata")["also"], true);
+    EXPECT_EQ(strata("replay panes.strata").code, 0);
+    EXPECT_THAT(strata("accept panes.strata --also").out, HasSubstr("nothing changed"));
+}
+
+TEST(Accept, ReplacesAllResultsAcceptedBefore) {
+    record_panes();
+    ASSERT_EQ(strata("accept panes.strata").code, 0);
+    expect_otherwise("transparency", "color", {{"also", true}});
+    const Finished accepted = strata("accept panes.strata");
+    EXPECT_THAT(accepted.out, HasSubstr(", replaces 2 accepted results\n"));
+    EXPECT_THAT(accepted.out, Not(HasSubstr("changed  ")));
+    EXPECT_FALSE(newest_expectation("panes.strata").contains("also"));
+    const Finished again = strata("accept panes.strata --json");
+    EXPECT_EQ(json::parse(again.out)["frames"][0]["accepted_results"], 1);
+    EXPECT_EQ(json::parse(again.out)["accepted_frames"], 0);
+}
+
+TEST(Accept, AlsoKeepsImagesLaterWhenAskedTo) {
+    record_panes();
+    ASSERT_EQ(strata("accept panes.strata").code, 0);
+    EXPECT_THAT(strata("accept panes.strata --also --with-images").out, HasSubstr("images kept"));
+    EXPECT_THAT(strata("accept panes.strata --also --with-images").out, HasSubstr("nothing changed"));
+}
+
+TEST(Accept, ToAnotherCaptureStoresWhatThisOneGives) {
+    record_panes_again();
+    const std::string before = bytes_of_golden(), panes = bytes_of_panes();
+    EXPECT_THAT(strata("accept panes.strata --to golden.strata --dry-run").out, HasSubstr("golden.strata is not changed"));
+    EXPECT_EQ(bytes_of_golden(), before);
+    const Finished accepted = strata("accept panes.strata --to golden.strata --with-images");
+    EXPECT_THAT(accepted.out, HasSubstr("new      transparency"));
+    EXPECT_THAT(accepted.out, HasSubstr("stored expected results of 1 frame in golden.strata, images kept"));
+    EXPECT_EQ(bytes_of_panes(), panes);
+    EXPECT_EQ(strata("replay golden.strata --expect").code, 0);
+    EXPECT_THAT(strata("accept panes.strata --to golden.strata").out, HasSubstr("nothing changed in golden.strata"));
+}
+
+TEST(Accept, ToAnotherCaptureShowsWhatDiffersFromItsResults) {
+    record_panes();
+    ASSERT_EQ(strata("accept panes.strata").code, 0);
+    expect_otherwise("transparency", "color");
+    std::filesystem::rename(folder() / "panes.strata", folder() / "golden.strata");
+    record_panes();
+    const Finished accepted = strata("accept panes.strata --to golden.strata --also");
+    EXPECT_THAT(accepted.out, HasSubstr("same     gbuffer"));
+    EXPECT_THAT(accepted.out, HasSubstr("changed  transparency: 'color' has hash"));
+    EXPECT_EQ(newest_expectation("golden.strata")["also"], true);
+}
+
+TEST(Accept, ToOneCaptureByProcessesAtOnceLosesNothing) {
+    record_panes_again();
+    const auto all = techniques_of(Stage::transparency);
+    std::vector<pid_t> running;
+    for (std::size_t i = 0; i < 2; ++i)
+        running.push_back(
+            start(STRATA_BINARY_DIR "/strata", "accept panes.strata --to golden.strata --use " + std::string(all[i]->name)));
+    for (const pid_t process : running) EXPECT_EQ(code_of(process), 0);
+    for (std::size_t i = 0; i < 2; ++i)
+        EXPECT_EQ(strata("replay golden.strata --expect --use " + std::string(all[i]->name)).code, 0) << all[i]->name;
+}
+
+/// What both verbs refuse of another capture, and leave as it is.
+TEST(Expect, AnotherCaptureThatDoesNotFitIsRefusedInWords) {
+    record_panes_again();
+    ASSERT_EQ(strata("record three_panes --size 32x18 -o small.strata").code, 0);
+    Recorder recorder = must(Recorder::create(folder() / "two.strata"));
+    for (int i = 0; i < 2; ++i) must(recorder.record(must(must(Capture::open(folder() / "panes.strata")).frame(0))));
+    must(recorder.finish());
+    std::ofstream(folder() / "text.strata") << "no capture";
+    const std::string before = bytes_of_golden();
+    for (const std::string verb : {"-v accept --to ", "-v replay --expect-from "}) {
+        SCOPED_TRACE(verb);
+        EXPECT_THAT(strata(verb + "nowhere.strata panes.strata"), Refuses(3, "file.cannot_open", "file=nowhere.strata"));
+        EXPECT_THAT(strata(verb + "text.strata panes.strata"), Refuses(3, "capture.not_a_capture", "file=text.strata"));
+        EXPECT_THAT(strata(verb + "golden.strata two.strata"),
+                    Refuses(2, "expect.no_frame", "file=golden.strata frame=1 frames=1"));
+        EXPECT_THAT(strata(verb + "golden.strata small.strata"), Refuses(2, "expect.other_size", "frame=0 width=32 height=18"));
+    }
+    EXPECT_EQ(bytes_of_golden(), before);
+    EXPECT_EQ(strata("accept two.strata --frames 0 --to golden.strata").code, 0);
+    EXPECT_EQ(strata("replay two.strata --frames 0 --expect-from golden.strata").code, 0);
+}
+
 TEST(Accept, KeepsImagesLaterWhenAskedTo) {
     record_panes();
     ASSERT_EQ(strata("accept panes.strata").code, 0);
@@ -174,6 +279,44 @@ TEST(Expect, AToleranceIsMetWithKeptImages) {
     const Finished tolerated = strata("replay panes.strata --tolerance 0.001");
     EXPECT_EQ(tolerated.code, 0);
     EXPECT_THAT(tolerated.err, HasSubstr("within tolerance"));
+}
+
+TEST(Expect, ADivergenceSaysOfHowManyAcceptedResults) {
+    record_panes();
+    ASSERT_EQ(strata("accept panes.strata").code, 0);
+    expect_otherwise("transparency", "color", {{"also", true}});
+    EXPECT_EQ(strata("replay panes.strata").code, 0);
+    expect_otherwise("transparency", "color", {{"also", false}});
+    expect_otherwise("transparency", "color", {{"also", true}});
+    const Finished diverged = strata("replay panes.strata --json");
+    EXPECT_EQ(diverged.code, 1);
+    EXPECT_THAT(diverged.err, HasSubstr(", the newest of 2 accepted results"));
+    EXPECT_EQ(json::parse(diverged.out)["frames"][0]["expectation"]["first_divergence"]["accepted_results"], 2);
+}
+
+TEST(Expect, AnAcceptedResultWithAMalformedKeyIsExitThree) {
+    record_panes();
+    ASSERT_EQ(strata("accept panes.strata").code, 0);
+    expect_otherwise("transparency", "color", {{"also", "yes"}});
+    for (const char* verb : {"replay", "accept", "validate"})
+        EXPECT_THAT(strata(fmt::format("-v {} panes.strata", verb)), Refuses(3, "expectation.cannot_read")) << verb;
+}
+
+TEST(Expect, ACaptureRecordedAgainFindsTheResultsOfAnother) {
+    record_panes_again();
+    const std::string replay = "-v replay panes.strata --expect-from golden.strata";
+    const std::string command = "accept 'panes.strata' --frames 0 --to 'golden.strata'";
+    EXPECT_THAT(strata(replay), Refuses(6, "replay.no_expectation", "command=\"strata " + command));
+    ASSERT_EQ(strata("accept golden.strata --with-images").code, 0);
+    EXPECT_EQ(strata("replay panes.strata --expect").code, 6);
+    EXPECT_THAT(strata(replay).err, HasSubstr("bit for bit as expected"));
+    std::filesystem::rename(folder() / "golden.strata", folder() / "panes.strata");
+    expect_otherwise("transparency", "color");
+    std::filesystem::rename(folder() / "panes.strata", folder() / "golden.strata");
+    record_panes();
+    EXPECT_THAT(strata(replay), Refuses(1, "replay.diverges", "divergence=\"transparency: 'color' differs in 0 of"));
+    EXPECT_THAT(strata(replay + " --tolerance 0.001").err, HasSubstr("within tolerance"));
+    EXPECT_THAT(strata(replay + " --no-expect"), Refuses(2, "options.not_applicable", "option=--no-expect"));
 }
 
 TEST(Expect, OtherChoicesAreExitSixWithTheCommandThatAcceptsThem) {

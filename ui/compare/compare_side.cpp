@@ -57,7 +57,7 @@ Result<SidePicture> true_picture(Session& session, const Request& request, const
 
 /// This device's newest of the frame and its choices, else the newest of any device.
 const Expectation* best_of(std::span<const Expectation> all, const Expectation& got) {
-    if (const Expectation* own = newest_for(all, got)) return own;
+    if (const auto own = accepted_for(all, got); !own.empty()) return own.front();
     const auto same = [&](const Expectation& each) { return same_frame_and_choices(each, got); };
     const auto found = std::find_if(all.rbegin(), all.rend(), same);
     return found == all.rend() ? nullptr : &*found;
