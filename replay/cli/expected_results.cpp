@@ -7,8 +7,8 @@ namespace {
 Result<void> check_frame_of(const Capture& other, const std::filesystem::path& path, Session& session, std::size_t frame) {
     if (frame >= other.frame_count())
         return fail(Fault::usage, "expect.no_frame",
-                    "{file} has no frame {frame}: the capture has {frames}, numbered from 0; choose others with --frames", path.string(),
-                    frame, other.frame_count());
+                    "{file} has no frame {frame}: the capture has {frames}, numbered from 0; choose others with --frames",
+                    path.string(), frame, other.frame_count());
     const auto own = session.frame(frame);
     if (!own) return own.error();
     const auto before = other.frame(frame);
