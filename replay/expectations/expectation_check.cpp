@@ -134,7 +134,7 @@ Result<ExpectationVerdict> check_expectations(const Capture& capture, std::span<
     for (std::size_t i = all.size(); i-- > 0;) {
         if (!same_frame_and_choices(all[i], got)) continue;
         const auto accepted = accepted_for(all, all[i]);
-        if (accepted.front() != &all[i]) continue;  // compared already, with the newest of its device
+        if (accepted.front() != &all[i]) continue;  // compared with the newest of its device, or replaced
         auto other = compare_with(capture, accepted, run, got, tolerance);
         if (!other) return other;
         const bool has_images = std::ranges::any_of(other->images, [](const ImageVerdict& v) { return v.deviation.has_value(); });
