@@ -20,7 +20,8 @@ StageInfo stage() {
             .outputs = {"visibility", "shadow_maps", "shadow_bounds"},
             .truth = shadows_truth,
             .judge = shadows_judge,
-            .scenarios = {"sun_and_boxes", "spot_and_box", "soft_shadows", "tilted_ground", "thirty_boxes", "leaves"}};
+            .scenarios = {"sun_and_boxes", "spot_and_box", "soft_shadows", "tilted_ground", "thirty_boxes", "leaves"},
+            .leaves = {"shadow_maps", "shadow_bounds"}};
 }
 
 }  // namespace strata::shadows

@@ -109,6 +109,7 @@ ImageSet shadows_truth(const StageInput& input) {
     const ReferenceImage& shape = depth->second;
     const auto layers = static_cast<std::uint32_t>(shadowed.size()) * shape.layers;
     ReferenceImage visibility(shape.width, shape.height, layers, glm::dvec4(1, 0, 0, 1));
+    visibility.channels = 1;
     for_each_receiver(input, [&](const Receiver& receiver) {
         for (std::uint32_t k = 0; k < shadowed.size(); ++k) {
             const std::vector<Ray> rays = rays_to(input.frame, lights[shadowed[k]], receiver.position);

@@ -37,7 +37,7 @@ struct ReportArguments {
     ChoiceOptions choices;
     std::string stage = "transparency";
     std::vector<std::string> sweeps, techniques;
-    std::string error, within, cost = "time", error_at = "stage", metric = "display";
+    std::string error, within, cost = "time", error_at, metric = "display";
     std::optional<std::uint64_t> memory;
     bool defaults = false;
     std::string frames = "0";
@@ -160,7 +160,7 @@ Result<ReportRequest> request_of(const ReportArguments& options) {
     ReportRequest wanted{.base = *base};
     if (options.repeats) wanted.repeats = *options.repeats;
     else wanted.least_repeats = 3;
-    if (options.error_at == "picture") wanted.error_at = ErrorAt::picture;
+    if (!options.error_at.empty()) wanted.error_at = options.error_at == "picture" ? ErrorAt::picture : ErrorAt::stage;
     if (options.metric == "relative") wanted.ranked_by = RankedBy::relative_rmse;
     const auto stage = stage_called(options.stage);
     if (!stage) return stage.error();
@@ -369,7 +369,8 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
         "answer which technique is fastest with at most this error, like 1%: of white (below .5 % it is not seen, 1 to "
         "2 % is seen when looked for, over 5 % is obvious); relative:3% is of radiance");
     app.add_option("--error-at", options->error_at,
-                   "measure errors of the stage's output, or of the picture that the later stages make of it")
+                   "measure errors of the stage's output, or of the picture that the later stages make of it; default: of "
+                   "the picture where the stage makes no radiance")
         ->check(one_of({"stage", "picture"}));
     app.add_option("--metric", options->metric,
                    "rank rows by the error of what a display shows of radiance (display, the default), or by that of radiance "

@@ -15,10 +15,13 @@ using nlohmann::ordered_json;
 
 /// What of a row is no single value.
 void add_parts(ordered_json& json, const Measurement& row, bool is_timed) {
-    for (const Metric& metric : errors_of(row))
-        json["technique_error"].push_back({{"metric", metric.name}, {"unit", metric.unit}, {"value", cell_json(metric.value)}});
-    for (const Metric& metric : row.accuracy.touched)
-        json["touched_error"].push_back({{"metric", metric.name}, {"unit", metric.unit}, {"value", cell_json(metric.value)}});
+    const auto add_errors = [&](const char* key, const std::vector<Metric>& errors) {
+        for (const Metric& metric : errors)
+            json[key].push_back({{"metric", metric.name}, {"unit", metric.unit}, {"value", cell_json(metric.value)}});
+    };
+    add_errors("technique_error", errors_of(row));
+    add_errors("touched_error", row.accuracy.touched);
+    add_errors("stage_error", row.accuracy.stage_errors);
     const WorstTexel& worst = row.accuracy.worst;
     const auto texel = [](const glm::dvec4& v) {
         return ordered_json{cell_json(v.x), cell_json(v.y), cell_json(v.z), cell_json(v.w)};
@@ -110,6 +113,7 @@ ordered_json json_of(const Report& report) {
     if (report.flicker)
         json["flicker"] = {
             {"frames", report.flicker->frames}, {"dolly_meters", *report.flicker->dolly}, {"pan_degrees", report.flicker->pan}};
+    if (!report.no_picture.empty()) json["no_picture"] = report.no_picture;
     if (!report.skipped.empty()) json["skipped"] = report.skipped;
     if (!report.stopped.empty()) json["stopped"] = report.stopped;
     json["warnings"] = ordered_json::array();

@@ -133,14 +133,16 @@ std::string heading(const Report& report) {
     for (const ReportTruth& truth : report.truths) text += truth_text(report, truth);
     const bool of_picture = report.error_at == ErrorAt::picture;
     if (of_picture) text += "errors are of the picture: the later stages run from each row's outputs and from the truth\n";
+    if (!report.no_picture.empty()) text += fmt::format("errors are of the stage, not of the picture: {}\n", report.no_picture);
     const Measurement* measured = first_measured(report);
     if (measured) text += undecided_text(measured->accuracy, of_picture ? "pixels" : "samples");
     if (measured && measured->accuracy.not_numbers > 0)
         text += fmt::format("left out of the errors: {}, NaN in the truth and in the result of {}\n",
                             plural(measured->accuracy.not_numbers, of_picture ? "pixel" : "sample"), measured->technique);
     if (leaves_much(report))
-        text += fmt::format("touched: errors over the {:.3g} % of {} that the stage changes\n",
-                            100 * measured->accuracy.touched_share, of_picture ? "pixels" : "samples");
+        text +=
+            fmt::format("touched: errors over the {:.3g} % of {} that the stage {}\n", 100 * measured->accuracy.touched_share,
+                        of_picture ? "pixels" : "samples", measured->accuracy.stage_errors.empty() ? "changes" : "can change");
     if (report.flicker)
         text += fmt::format("flicker: mean change of the error from frame to frame, {}: {} m ahead, {} degrees to the right\n",
                             plural(report.flicker->frames, "frame"), short_number(*report.flicker->dolly),

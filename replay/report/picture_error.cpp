@@ -1,6 +1,7 @@
 #include "replay/report/picture_error.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "passes/frame_images.h"
 #include "passes/reference/difference.h"
@@ -10,6 +11,7 @@
 #include "passes/stages.h"
 #include "replay/measure/flip.h"
 #include "replay/session/judgment.h"
+#include "replay/session/light_unit.h"
 
 namespace strata {
 namespace {
@@ -21,18 +23,43 @@ Result<ReferenceImage> picture_from(Session& session, Request request, Stage sta
     return session.run_from(request, stage, outputs).and_then([](auto& run) { return in_double(run.images.at(picture)); });
 }
 
+/// Images of the shapes of the truth, all of one value.
+ImageSet plain_outputs(const ImageSet& truth, double value) {
+    ImageSet plain;
+    for (const auto& [name, image] : truth)
+        plain.emplace(name, ReferenceImage(image.width, image.height, image.layers, glm::dvec4(value)));
+    return plain;
+}
+
 /// The stage's outputs as its technique finds them; black where no stage before it writes them.
 Result<ImageSet> found_before(Session& session, const Request& request, Stage stage, const ImageSet& truth) {
     const auto passes = session.pass_images(request);
     if (!passes) return passes.error();
-    ImageSet before;
-    for (const auto& [name, image] : truth) before.emplace(name, ReferenceImage(image.width, image.height, image.layers));
+    ImageSet before = plain_outputs(truth, 0);
     for (const PassImages& pass : *passes) {
         if (pass.at == stage) break;
         for (const auto& [name, image] : pass.images)
             if (const auto wanted = before.find(name); wanted != before.end()) wanted->second = in_double(image);
     }
     return before;
+}
+
+/// A picture that differs from the truth's where the stage's choice can change something. A stage that makes light gets nothing
+/// wrong where it adds none. Surfaces and masks may be wrong wherever they are seen: where black is right, a mask may be white.
+Result<ReferenceImage> picture_of_others(Session& session, const Request& request, Stage stage, const ImageSet& truth,
+                                         const ReferenceImage& display) {
+    if (holds_radiance(info(stage).outputs.front())) {
+        const auto before = found_before(session, request, stage, truth);
+        return before ? picture_from(session, request, stage, *before) : Result<ReferenceImage>(before.error());
+    }
+    auto others = picture_from(session, request, stage, plain_outputs(truth, 0));
+    const bool are_masks = std::ranges::all_of(truth, [](const auto& output) { return output.second.channels == 1; });
+    if (!others || !are_masks) return others;
+    const auto white = picture_from(session, request, stage, plain_outputs(truth, 1));
+    if (!white) return white.error();
+    for (std::size_t i = 0; i < display.texels.size(); ++i)
+        if (others->texels[i] == display.texels[i]) others->texels[i] = white->texels[i];
+    return others;
 }
 
 /// Leaves out the pixels of which a sample of the stage's picture is undecided, and what else it may be is not known. Images of
@@ -86,29 +113,29 @@ Result<void> add_alternatives(Session& session, const Request& request, Stage st
 /// Smaller is better; shares in percent of the pixels that are compared.
 std::vector<Metric> metrics_of(const DisplayError& error, const ReferenceImage& got, const ReferenceImage& wanted) {
     return {{display_rmse, "of white", error.rmse},
-            {"relative rmse", "", difference(got, wanted).relative},
-            {"worst", "of white", error.worst},
-            {"off by 1/255", "%", 100 * error.over_1_255},
+            {"relative rmse", "", difference(got, wanted).relative, true},
+            {"worst", "of white", error.worst, true},
+            {"off by 1/255", "%", 100 * error.over_1_255, true},
             {"over 5/255", "%", 100 * error.over_5_255}};
 }
 
 }  // namespace
 
+bool makes_picture(Stage stage) { return std::ranges::count(info(stage).outputs, picture) > 0; }
+
 Result<PictureTruth> picture_truth(Session& session, const Request& request, Stage stage, const ImageSet& truth) {
-    if (std::ranges::count(info(stage).outputs, picture) > 0)
+    if (makes_picture(stage))
         return fail(Fault::usage, "report.stage_makes_picture",
                     "the stage {stage} makes the picture itself: its errors are those of the picture", name(stage));
     auto display = picture_from(session, request, stage, truth);
     if (!display) return display.error();
-    const auto before = found_before(session, request, stage, truth);
-    if (!before) return before.error();
-    const auto without = picture_from(session, request, stage, *before);
-    if (!without) return without.error();
+    const auto others = picture_of_others(session, request, stage, truth, *display);
+    if (!others) return others.error();
     if (const auto added = add_alternatives(session, request, stage, truth, *display); !added) return added.error();
     if (const auto shown = truth.find(info(stage).outputs.front()); shown != truth.end())
         leave_out_undecided(shown->second, *display);
     PictureTruth made{.display = *display, .touched = *std::move(display)};
-    made.touched_share = keep_touched(made.touched, &*without).value_or(0);
+    made.touched_share = keep_touched(made.touched, &*others).value_or(0);
     return made;
 }
 
@@ -139,7 +166,7 @@ Result<void> judge_picture(Session& session, Request request, const PictureTruth
         accuracy.flip.reset();
         return {};
     }
-    accuracy.technique_errors = metrics_of(display_error(got, wanted), got, wanted);
+    accuracy.stage_errors = std::exchange(accuracy.technique_errors, metrics_of(display_error(got, wanted), got, wanted));
     accuracy.flip = display_flip(color_planes(wanted), color_planes(got)).mean;
     accuracy.touched.clear(), accuracy.footing.emplace(), accuracy.touched_share = 1;
     if (truth.touched_share == 0) return {};

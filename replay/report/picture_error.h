@@ -10,16 +10,19 @@ namespace strata {
 /// What every row of a report is compared with.
 struct PictureTruth {
     ReferenceImage display;  ///< of the truth; where its alternatives show something else, that is an alternative
-    ReferenceImage touched;  ///< the same with only those pixels that the stage changes
+    ReferenceImage touched;  ///< the same with only those pixels that the stage's choice can change
     double touched_share = 1;
 };
+
+/// Whether the picture is one of the stage's own outputs.
+bool makes_picture(Stage);
 
 /// Runs the request from the stage's truth, and from what its technique finds. Fails where the truth cannot take the place of the
 /// stage's outputs (Session::run_from), and for a stage that makes the picture itself.
 Result<PictureTruth> picture_truth(Session&, const Request&, Stage, const ImageSet& truth);
 
 /// Runs the request and puts the errors of its picture in the place of those of the stage: Accuracy::technique_errors, flip and
-/// touched.
+/// touched. The stage's own go to Accuracy::stage_errors.
 Result<void> judge_picture(Session&, Request, const PictureTruth&, Accuracy&);
 
 }  // namespace strata

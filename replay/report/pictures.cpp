@@ -89,9 +89,9 @@ std::vector<bool> rows_looked_at(const Report& report) {
 /// Makes pictures of one stage of one frame.
 class Pictures {
 public:
-    Pictures(Session& session, const ReportRequest& wanted, const Frame& frame) : session_(&session), frame_(&frame) {
-        const std::string_view first = info(wanted.stage).outputs.front();
-        if (holds_radiance(first) && wanted.error_at == ErrorAt::stage) radiance_ = first;
+    Pictures(Session& session, const Report& report, const Frame& frame) : session_(&session), frame_(&frame) {
+        const std::string_view first = info(report.stage).outputs.front();
+        if (holds_radiance(first) && report.error_at == ErrorAt::stage) radiance_ = first;
     }
 
     std::string image() const { return radiance_.empty() ? frame_picture : radiance_; }
@@ -106,8 +106,7 @@ public:
         if (!radiance_.empty()) return shown(truth.truth.find(radiance_)->second);
         Request request = base;
         request.outputs = {frame_picture};
-        if (std::ranges::count(info(stage).outputs, frame_picture) > 0)
-            return shown_picture(truth.truth.find(frame_picture)->second);
+        if (makes_picture(stage)) return shown_picture(truth.truth.find(frame_picture)->second);
         return session_->run_from(request, stage, truth.truth).and_then([](auto& run) {
             return Result<ShownPicture>(shown_picture(in_double(run.images.at(frame_picture))));
         });
@@ -130,7 +129,7 @@ Result<void> add_pictures(Session& session, const ReportRequest& wanted, std::sp
                           Report& report) {
     const auto frame = session.frame(wanted.base.variant.frame);
     if (!frame) return frame.error();
-    const Pictures pictures(session, wanted, *frame);
+    const Pictures pictures(session, report, *frame);
     const auto truth = pictures.of_truth(wanted.base, wanted.stage, truths.all.front());
     // Later stages read more of the pass than images, which no truth has: culling, shadow maps.
     if (!truth && truth.error().fault == Fault::usage) return {};

@@ -215,7 +215,6 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
 
     Report report{.stage = wanted.stage,
                   .capture_id = session.capture_id(),
-                  .error_at = wanted.error_at,
                   .base = wanted.base,
                   .frame = wanted.base.variant.frame,
                   .repeats = wanted.repeats,
@@ -240,6 +239,8 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
     const auto row_truths = find_row_truths(session, wanted, *all, *frame);
     if (!row_truths) return row_truths.error();
     report.truths = truths_of(*row_truths);
+    report.error_at = row_truths->error_at;
+    report.no_picture = row_truths->no_picture;
     RowMaker maker(session, wanted, *all, *row_truths, report);
     const auto made = maker.make_all([&](std::string_view what, double done) { tell(what, shares.rows * done); });
     if (!made) return made.error();

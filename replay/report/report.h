@@ -43,7 +43,8 @@ enum class RankedBy { display_rmse, relative_rmse };
 
 struct ReportRequest {
     Request base;  ///< frame, other stages' choices
-    ErrorAt error_at = ErrorAt::stage;
+    /// None: of the stage where it makes radiance or the picture itself, else of the picture if the truth can take its place there.
+    std::optional<ErrorAt> error_at;
     RankedBy ranked_by = RankedBy::display_rmse;
     Stage stage = Stage::transparency;
     std::vector<std::string> techniques;  ///< "technique key=value ..."; none: every technique of the stage
@@ -119,6 +120,7 @@ struct Report {
     std::string date = {};            ///< when it was made, utc_date(); the caller's
     std::vector<ReportTruth> truths;  ///< of its rows; the first is that of the first row
     ErrorAt error_at = ErrorAt::stage;
+    std::string no_picture = {};         ///< why errors are not of the picture, as nobody asked where they are to be measured
     Request base = {};                   ///< ReportRequest::base
     std::size_t frame = 0, repeats = 0;  ///< of the row with the most; each has its own in its spreads
     std::size_t least_repeats = 0;       ///< of the row with the fewest

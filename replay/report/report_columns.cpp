@@ -40,23 +40,27 @@ std::string with_unit(const Metric& metric) {
     return metric.unit.empty() ? metric.name : fmt::format("{} {}", metric.name, metric.unit);
 }
 
-Column<Row> metric_column(const Metric& metric) {
+std::vector<Metric> stage_errors_of(const Row& row) { return row.accuracy.stage_errors; }
+
+/// `errors` of a row have the value; `of` names the stage where they are its own beside those of the picture.
+Column<Row> metric_column(const Metric& metric, std::vector<Metric> (*errors)(const Row&), std::string_view of = {}) {
+    const auto named = [&](const std::string& text) { return of.empty() ? text : fmt::format("{} {}", of, text); };
     const auto* known = std::ranges::find(metric_helps, metric.name, &FigureHelp::name);
     const bool is_known = known != metric_helps.end();
     const unsigned in_tables = in_csv | in_window | (metric.is_detail ? 0u : unsigned{in_text});
-    return {{.key = metric.name,
-             .title = with_unit(metric),
+    return {{.key = named(metric.name),
+             .title = named(with_unit(metric)),
              .help = is_known ? std::string(known->help) : "",
              .kind = kind_of({metric.name, is_of_white(metric)}),
              .better = is_known ? known->better : Better::less,
              .shown = in_tables,  // JSON has them in technique_error, with their units
              .unit = metric.unit,
-             .short_title = is_of_white(metric) ? metric.name + " %" : metric.name,
-             .label = metric.unit.empty() ? metric.name : fmt::format("{} ({})", metric.name, metric.unit),
+             .short_title = named(is_of_white(metric) ? metric.name + " %" : metric.name),
+             .label = named(metric.unit.empty() ? metric.name : fmt::format("{} ({})", metric.name, metric.unit)),
              .role = Role::error,
              .is_detail = metric.is_detail},
-            [name = metric.name](const Row& row) -> CellValue {
-                for (const Metric& own : errors_of(row))
+            [name = metric.name, errors](const Row& row) -> CellValue {
+                for (const Metric& own : errors(row))
                     if (own.name == name) return own.value;
                 return {};
             }};
@@ -79,7 +83,7 @@ ColumnsOfRows errors(const Report& report) {
     ColumnsOfRows columns;
     const Row* first = first_measured(report);
     if (first)
-        for (const Metric& metric : errors_of(*first)) columns.push_back(metric_column(metric));
+        for (const Metric& metric : errors_of(*first)) columns.push_back(metric_column(metric, errors_of));
     const bool is_shown = leaves_much(report) || (first && ranking_metric(*first).is_detail);
     columns.push_back({{.key = "ranking_error",
                         .title = title_of(ranking_error(report)),
@@ -89,6 +93,9 @@ ColumnsOfRows errors(const Report& report) {
                         .shown = in_files | (is_shown ? in_text | in_window : 0u),
                         .role = Role::error},
                        [](const Row& row) { return ranking_metric(row).value; }});
+    if (first)
+        for (const Metric& metric : first->accuracy.stage_errors)
+            columns.push_back(metric_column(metric, stage_errors_of, name(report.stage)));
     columns.push_back(
         {{.key = "touched_share",
           .title = "touched",

@@ -7,6 +7,7 @@
 #include "passes/stages.h"
 #include "passes/technique.h"
 #include "replay/plural.h"
+#include "replay/session/light_unit.h"
 #include "replay/tables/table.h"
 
 namespace strata {
@@ -88,6 +89,23 @@ Result<RowTruth> find_row_truth(Session& session, const ReportRequest& wanted, c
                 view.width, view.height, view.samples, name(wanted.stage));
 }
 
+/// Where errors are measured unless one asks: a stage without radiance is judged by what its errors do to the picture.
+ErrorAt default_error_at(Stage stage) {
+    const StageInfo& of = info(stage);
+    const bool makes_light = holds_radiance(of.outputs.front()) || makes_picture(stage);
+    return makes_light ? ErrorAt::stage : ErrorAt::picture;
+}
+
+/// The pictures of all truths.
+Result<void> add_pictures_of(Session& session, const ReportRequest& wanted, RowTruths& found) {
+    for (RowTruth& row_truth : found.all) {
+        auto picture = picture_truth(session, wanted.base, wanted.stage, row_truth.truth);
+        if (!picture) return picture.error();
+        row_truth.picture = *std::move(picture);
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<TruthRow> truth_asked_by(const Request& request, Stage stage, const Frame& frame) {
@@ -114,12 +132,15 @@ Result<RowTruths> find_row_truths(Session& session, const ReportRequest& wanted,
         const Request& asks = of->name == of_base->name ? wanted.base : row.request;
         auto row_truth = find_row_truth(session, wanted, asks, *of, view);
         if (!row_truth) return row_truth.error();
-        if (wanted.error_at == ErrorAt::picture) {
-            auto picture = picture_truth(session, wanted.base, wanted.stage, row_truth->truth);
-            if (!picture) return picture.error();
-            row_truth->picture = *std::move(picture);
-        }
         found.all.push_back(*std::move(row_truth));
+    }
+    found.error_at = wanted.error_at.value_or(default_error_at(wanted.stage));
+    if (found.error_at == ErrorAt::stage) return found;
+    if (const auto added = add_pictures_of(session, wanted, found); !added) {
+        if (wanted.error_at || added.error().fault != Fault::usage) return added.error();
+        for (RowTruth& row_truth : found.all) row_truth.picture.reset();
+        found.error_at = ErrorAt::stage;
+        found.no_picture = added.error().sentence;
     }
     return found;
 }

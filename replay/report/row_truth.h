@@ -28,6 +28,8 @@ Result<TruthRow> truth_asked_by(const Request&, Stage, const Frame&);
 struct RowTruths {
     std::vector<RowTruth> all;
     std::vector<std::size_t> of_row;  ///< places in `all`
+    ErrorAt error_at = ErrorAt::stage;
+    std::string no_picture = {};  ///< Report::no_picture
 };
 Result<RowTruths> find_row_truths(Session&, const ReportRequest&, std::span<const Variant>, const Frame&);
 

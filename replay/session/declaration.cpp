@@ -168,21 +168,44 @@ private:
     std::size_t place_ = 0;
 };
 
-/// Puts images in the place of what a stage's own pass gives.
+/// Whether the pass made or changed an image of the frame, of which these are the handles after it.
+bool writes(const DeclaredPass& pass, const FrameImages& after, std::string_view image) {
+    const FrameImageRow* row = find_frame_image(image);
+    return row && after.*row->member && pass.before.*row->member != after.*row->member;
+}
+
+/// The place of the pass that gives later ones a stage's first output, as shadow maps are filtered at a later stage; of the
+/// stage's own where none does. Nothing where the frame does not need the stage.
+std::optional<std::size_t> giving_pass(const Declaration& d, Stage stage) {
+    std::optional<std::size_t> own;
+    const std::vector<DeclaredPass>& passes = d.frame.passes;
+    const auto read_later = images_read_later(d.graph, passes);
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        if (passes[i].technique->stage != stage) continue;
+        const FrameImages& after = i + 1 < passes.size() ? passes[i + 1].before : d.images;
+        if (!read_later[i].empty() && writes(passes[i], after, info(stage).outputs.front())) return i;
+        if (passes[i].at == stage) own = i;
+    }
+    return own;
+}
+
+/// Puts images in the place of what a pass gives of its technique's stage.
 class Give {
 public:
-    Give(Declaration& d, Stage stage, const ImageSet& outputs) : d_(&d), stage_(stage), outputs_(&outputs) {}
+    Give(Declaration& d, std::size_t place, const ImageSet& outputs) : d_(&d), passes_before_(place), outputs_(&outputs) {}
 
     void operator()(const DeclaredPass& pass) {
-        if (pass.technique->stage != stage_ || pass.at != stage_) return;
+        if (passes_before_-- != 0) return;
         Graph& graph = d_->graph;
         const Scope scope = graph.scopes()[pass.scope];
-        if (!leaves_images()) graph.drop_scope(pass.scope);
+        const auto& leaves = info(scope.stage).leaves;
+        const auto is_left = [&](std::string_view image) { return writes(pass, d_->images, image); };
+        if (std::ranges::none_of(leaves, is_left)) graph.drop_scope(pass.scope);
         graph.enter({ScopeKind::given, scope.stage, scope.at, scope.technique});
         const bool makes_nothing = std::ranges::none_of(*outputs_, [&](const auto& output) { return has_image(output.first); });
         for (const auto& [name, texels] : *outputs_) {
             const FrameImageRow* row = find_frame_image(name);
-            if (!row || std::ranges::count(info(stage_).leaves, name) > 0) continue;
+            if (!row || std::ranges::count(leaves, name) > 0) continue;
             Image& image = d_->images.*row->member;
             // Later stages do without the outputs of a baseline that declares nothing; of given ones they do not.
             if (makes_nothing) image = graph.create(name, shape_of(texels));
@@ -210,14 +233,8 @@ private:
                 .layers = texels.layers};
     }
 
-    /// Whether steps of the pass make what no output can stand for.
-    bool leaves_images() const {
-        const auto is_left = [&](std::string_view image) { return bool(d_->images.*find_frame_image(image)->member); };
-        return std::ranges::any_of(info(stage_).leaves, is_left);
-    }
-
     Declaration* d_;
-    Stage stage_;
+    std::size_t passes_before_;
     const ImageSet* outputs_;
 };
 
@@ -228,12 +245,14 @@ std::optional<Error> cannot_give(const Declaration& d, std::size_t place, const 
     if (feeds_buffers(d.graph, pass.scope))
         return fail(Fault::usage, "stage.buffers_are_read", "later stages read buffers of {technique}", pass.technique->name);
     const std::vector<std::string> images_read = images_read_later(d.graph, d.frame.passes)[place];
+    bool are_all_left = !images_read.empty();
     for (const std::string& read : images_read) {
         const auto is_read = [&](std::string_view image_name) {
             const Image image = d.images.*find_frame_image(image_name)->member;
             return image && d.graph.record(image).name == read;
         };
         if (std::ranges::any_of(stage.leaves, is_read)) continue;
+        are_all_left = false;
         const auto output = std::ranges::find_if(stage.outputs, is_read);
         const auto given = output == stage.outputs.end() ? outputs.end() : outputs.find(*output);
         if (given == outputs.end())
@@ -244,6 +263,9 @@ std::optional<Error> cannot_give(const Declaration& d, std::size_t place, const 
             shape.extent.height != image.height || shape.layers != image.layers)
             return fail(Fault::usage, "stage.output_of_another_shape", "'{image}' has another shape than the image given", read);
     }
+    if (are_all_left)
+        return fail(Fault::usage, "stage.only_left_outputs_are_read",
+                    "later stages read '{image}', of which no truth says anything", images_read.front());
     return {};
 }
 
@@ -306,15 +328,13 @@ Result<Declaration> declare_from(const Request& request, const Sources& sources,
     Declaration d;
     d.choices = *choices;
     if (const auto filled = fill(d, request, sources, Keep::outputs, {}); !filled) return filled.error();
-    const auto is_own = [&](const DeclaredPass& pass) { return pass.technique->stage == stage && pass.at == stage; };
-    const auto own = std::ranges::find_if(d.frame.passes, is_own);
-    if (own == d.frame.passes.end())
-        return fail(Fault::usage, "stage.not_needed", "the frame does not need the stage {stage}", name(stage));
-    if (const auto why = cannot_give(d, static_cast<std::size_t>(own - d.frame.passes.begin()), outputs))
+    const auto place = giving_pass(d, stage);
+    if (!place) return fail(Fault::usage, "stage.not_needed", "the frame does not need the stage {stage}", name(stage));
+    if (const auto why = cannot_give(d, *place, outputs))
         return within(*why, "no image can take the place of what {stage} gives", name(stage));
     d = Declaration{};
     d.choices = *choices;
-    const auto filled = fill(d, request, sources, Keep::outputs, Give(d, stage, outputs));
+    const auto filled = fill(d, request, sources, Keep::outputs, Give(d, *place, outputs));
     if (!filled) return filled.error();
     if (const auto planned = add_plan(d, sources); !planned) return planned.error();
     return d;

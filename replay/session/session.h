@@ -155,7 +155,8 @@ struct Footing {
 
 /// How a technique fared on a frame against its model (implementation error) and the stage's truth (technique error).
 struct Accuracy {
-    std::vector<Metric> technique_errors;  ///< from the stage's judge
+    std::vector<Metric> technique_errors;  ///< from the stage's judge, or of the picture that later stages make
+    std::vector<Metric> stage_errors;      ///< from the stage's judge, where technique_errors are of the picture
     std::optional<double> flip;            ///< mean of FLIP against the truth, of a stage that makes radiance
     std::vector<Metric> touched;           ///< the same over the samples that the truth changes, of a stage that makes radiance
     double touched_share = 1;              ///< of all samples

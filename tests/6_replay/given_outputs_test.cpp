@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "passes/frame_images.h"
 #include "passes/stages.h"
 #include "tests/support/errors.h"
@@ -56,6 +58,30 @@ TEST(GivenOutputs, OfAGBufferAreItsDecodedSurfaces) {
     }
 }
 
+/// Shadow maps are filtered behind the G-buffer: there the images are given, and lights that reach everything cast no shadow.
+TEST(GivenOutputs, OfShadowsTakeThePlaceOfTheFilteredMaps) {
+    std::vector<Frame> frames = scenario_frames("spot_and_box");
+    frames.push_back(frames.front());
+    frames[1].sun.shadow.casts = false;
+    for (Light& light : frames[1].lights) light.shadow.casts = false;
+    const auto session = session_of(std::move(frames));
+    Request request;
+    request.outputs = {"visibility", "display"};
+    const auto plain = must(session->run(request));
+    const ReferenceImage visibility = in_double(plain.images.at("visibility"));
+    const auto picture_with = [&](const ReferenceImage& given) {
+        return must(session->run_from(request, Stage::shadows, {{"visibility", given}})).images.at("display").texels;
+    };
+    EXPECT_EQ(picture_with(visibility), plain.images.at("display").texels);
+    ReferenceImage lit(visibility.width, visibility.height, visibility.layers, glm::dvec4(1));
+    const auto all_lit = picture_with(lit);
+    EXPECT_NE(all_lit, plain.images.at("display").texels);
+    Request without_shadows;
+    without_shadows.variant.frame = 1;
+    without_shadows.outputs = {"display"};
+    EXPECT_EQ(all_lit, must(session->run(without_shadows)).images.at("display").texels);
+}
+
 TEST(GivenOutputs, ReachThePicture) {
     Session& session = session_of_scenarios();
     const Request request = on_scenario("one_pane");
@@ -78,6 +104,10 @@ TEST(GivenOutputs, AreRefusedWhereLaterStagesReadMore) {
     EXPECT_THAT(run(Stage::transparency, {}), FailsWith("stage.output_not_given", Field("image", "color")));
     EXPECT_THAT(run(Stage::transparency, {{"color", ReferenceImage(3, 3)}}), FailsWith("stage.output_of_another_shape"));
     EXPECT_THAT(run(Stage::rain, {}), FailsWith("stage.not_needed", Field("stage", "rain")));
+    Request filtered_by_lighting = on_scenario("spot_and_box");
+    filtered_by_lighting.choices = chosen({"lighting/tiled"}, {"tiled:shadows=inline"});
+    EXPECT_THAT(session.run_from(filtered_by_lighting, Stage::shadows, {}),
+                FailsWith("stage.only_left_outputs_are_read", Field("image", "shadow_maps")));
 }
 
 }  // namespace

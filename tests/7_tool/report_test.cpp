@@ -9,11 +9,13 @@
 #include <nlohmann/json.hpp>
 
 #include "capture_format/frame/frame.h"
+#include "capture_format/frame/light.h"
 #include "capture_format/view.h"
 #include "captures/scenarios.h"
 #include "passes/frame_images.h"
 #include "passes/reference/difference.h"
 #include "passes/stage_input.h"
+#include "passes/stages.h"
 #include "passes/transparency/judge.h"
 #include "replay/report/flicker.h"
 #include "replay/report/hard_cases.h"
@@ -329,6 +331,53 @@ TEST(PictureErrors, AreThoseThatLaterStagesLeave) {
     wanted.stage = Stage::combine;
     wanted.techniques = {};
     EXPECT_THAT(make_report(*session, wanted), FailsWith("report.stage_makes_picture", Field("stage", "combine")));
+}
+
+/// A stage without light is judged by what its errors do to the picture, and says its own figures beside.
+TEST(PictureErrors, RankStagesThatMakeNoLight) {
+    const auto session = scenario_session("materials");
+    const Report surfaces = must(make_report(*session, {.stage = Stage::gbuffer, .techniques = {"compact"}, .repeats = 1}));
+    EXPECT_EQ(surfaces.error_at, ErrorAt::picture);
+    EXPECT_EQ(ranking_metric(surfaces.rows.at(0)).name, display_rmse);
+    EXPECT_EQ(surfaces.rows.at(0).accuracy.stage_errors.front().name, "normal angle rms");
+    EXPECT_EQ(nlohmann::json::parse(as_json(surfaces))["rows"][0]["stage_error"][0]["metric"], "normal angle rms");
+    EXPECT_THAT(as_csv(surfaces), HasSubstr(",gbuffer normal angle rms,"));
+    const ReportRequest asked{.error_at = ErrorAt::stage, .stage = Stage::gbuffer, .techniques = {"compact"}, .repeats = 1};
+    const Report of_stage = must(make_report(*session, asked));
+    EXPECT_EQ(of_stage.error_at, ErrorAt::stage);
+    EXPECT_EQ(ranking_metric(of_stage.rows.at(0)).value, surfaces.rows.at(0).accuracy.stage_errors.front().value);
+
+    const Report draws = must(make_report(*session, {.stage = Stage::culling, .techniques = {"frustum"}, .repeats = 1}));
+    EXPECT_EQ(draws.error_at, ErrorAt::stage);
+    EXPECT_THAT(as_text(draws), HasSubstr("\nerrors are of the stage, not of the picture: no image can take the place of what "
+                                          "culling gives: later stages read buffers of culling/frustum\n"));
+    for (const Stage stage : {Stage::lighting, Stage::combine}) {
+        const Report light = must(make_report(*session, {.stage = stage, .defaults_only = true, .repeats = 1}));
+        EXPECT_EQ(light.error_at, ErrorAt::stage) << info(stage).name;
+        EXPECT_EQ(light.no_picture, "");
+    }
+}
+
+/// A shadow that is missing is an error where the truth is dark, as in the picture without the lights that cast shadows: touched
+/// are all pixels that these lights reach.
+TEST(PictureErrors, OfShadowsAreOverAllPixelsThatTheirLightsReach) {
+    std::vector<Frame> frames = scenario_frames("sun_and_boxes");
+    frames[0].view.width = 96, frames[0].view.height = 54;
+    frames.resize(3, frames.front());
+    frames[1].sun.shadow.casts = false;
+    frames[2].sun.irradiance = glm::vec3(0);
+    for (const Frame& frame : frames) ASSERT_TRUE(frame.lights.empty());
+    const auto session = session_of(std::move(frames));
+    std::vector<ReferenceImage> pictures;
+    for (const std::size_t frame : {1u, 2u}) {
+        Request request{.outputs = {"display"}};
+        request.variant.frame = frame;
+        pictures.push_back(in_double(must(session->run(request)).images.at("display")));
+    }
+    std::size_t reached = 0;
+    for (std::size_t i = 0; i < pictures[0].texels.size(); ++i) reached += pictures[0].texels[i] != pictures[1].texels[i];
+    const Report report = must(make_report(*session, {.stage = Stage::shadows, .techniques = {"pcf"}, .repeats = 1}));
+    EXPECT_NEAR(report.rows.at(0).accuracy.touched_share, double(reached) / double(pictures[0].texels.size()), 1e-9);
 }
 
 /// Exposure chooses the unit that light is stored in. A report keeps a truth in the frame's unit and scales it back for every
