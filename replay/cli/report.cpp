@@ -112,9 +112,9 @@ Result<void> read_costs(const ReportArguments& options, Question& question) {
 }
 
 std::string written(OutputFormat format, std::span<const Report> made) {
-    if (format == OutputFormat::html) return as_html(made[0]);
-    if (made.size() == 1) return in_format(format, made[0]);
+    if (made.size() == 1) return format == OutputFormat::html ? as_html(made[0]) : in_format(format, made[0]);
     const Pool pool = pooled(made);
+    if (format == OutputFormat::html) return as_html(made, pool);
     if (format == OutputFormat::json) return as_json(made, pool);
     if (format == OutputFormat::csv) return as_csv(made, pool);
     const Page page = page_of(made, pool);
@@ -319,8 +319,6 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
         if (!session) return session.error();
         const auto frames = frame_indices(options.frames, (*session)->frame_count());
         if (!frames) return frames.error();
-        if (format == OutputFormat::html && (frames->size() > 1 || captures->size() > 1))
-            return fail(Fault::usage, "report.page_of_one", "a page shows one frame, not several; write one page for each");
         (*session)->stop_when(deadline.token());
         const auto done = measure_frames(**session, request, *frames, capture.filename().string(), measured);
         if (!done && done.error().fault == Fault::stopped && !measured.reports.empty()) break;

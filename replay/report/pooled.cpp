@@ -111,11 +111,6 @@ PooledRow pooled_row(std::span<const Source> rows, const RankingError& error) {
     return made;
 }
 
-/// "a.strata frame 3", or without the frame where a capture has one.
-std::string name_of(const Report& report, bool is_alone) {
-    return is_alone ? report.capture_name : fmt::format("{} frame {}", report.capture_name, report.frame);
-}
-
 /// The captures of reports by number: frames of one follow each other.
 std::vector<std::size_t> captures_of(std::span<const Report> reports) {
     std::vector<std::size_t> numbers;
@@ -144,20 +139,31 @@ double geometric_mean(std::span<const double> values) {
     return values.empty() ? 0 : std::exp(logs / double(values.size()));
 }
 
+std::vector<std::string> frame_names(std::span<const Report> reports) {
+    const std::vector<std::size_t> captures = captures_of(reports);
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+        const bool is_alone = std::ranges::count(captures, captures[i]) == 1;
+        names.push_back(is_alone ? reports[i].capture_name
+                                 : fmt::format("{} frame {}", reports[i].capture_name, reports[i].frame));
+    }
+    return names;
+}
+
 Pool pooled(std::span<const Report> reports) {
     Pool pool;
     std::vector<std::vector<Source>> rows;  // of equal technique and settings
     bool one_unit = true;
     const std::vector<std::size_t> captures = captures_of(reports);
+    const std::vector<std::string> names = frame_names(reports);
     std::set<std::size_t> counted;
     for (std::size_t i = 0; i < reports.size(); ++i) {
         const Report& report = reports[i];
         pool.stage = report.stage, pool.question = report.question, pool.times_are = times_text(report);
         if (!report.skipped.empty() || !report.is_timed) continue;
         if (pool.without_modeled_time.empty()) pool.without_modeled_time = without_modeled_time(report);
-        const std::string frame = name_of(report, std::ranges::count(captures, captures[i]) == 1);
         if (changes_too_little(report)) {
-            pool.left_out.push_back(frame);
+            pool.left_out.push_back(names[i]);
             continue;
         }
         if (pool.frames == 0) pool.time_unit = report.time_unit;
@@ -175,7 +181,7 @@ Pool pooled(std::span<const Report> reports) {
             };
             auto known = std::ranges::find_if(rows, same);
             if (known == rows.end()) known = rows.emplace(known);
-            known->push_back({&row, &report, asked[j], captures[i], frame});
+            known->push_back({&row, &report, asked[j], captures[i], names[i]});
         }
     }
     pool.captures = counted.size();

@@ -50,6 +50,9 @@ Pool pooled(std::span<const Report>);
 /// exactly would be all of its mean, and the rounding of an exact technique is no merit.
 double geometric_mean(std::span<const double>);
 
+/// "a.strata frame 3" for each, or without the frame where a capture has one.
+std::vector<std::string> frame_names(std::span<const Report>);
+
 /// Rows that are not ranked have no error.
 std::vector<Standing> standings(const Pool&);
 

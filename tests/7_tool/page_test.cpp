@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -109,9 +110,52 @@ TEST(Page, OfAStageWhoseTruthCannotBeShownHasNoPictures) {
     EXPECT_THAT(Browser(page()).complaints(), testing::IsEmpty());
 }
 
-TEST(Page, IsOfOneCaptureAndOfReportsAlone) {
+/// Rows by frames on top, with the numbers of the JSON; a page for each frame below.
+TEST(Page, OfSeveralFramesHasWhatEachRowIsOffOnEach) {
+    ASSERT_EQ(strata("record glass_and_smoke -o a.strata --size 48x27 --frames 2").code, 0);
+    const std::string measure = "report a.strata --frames 0-1 --techniques weighted,alpha_blend,k_buffer --repeats 2 --error 9%";
+    ASSERT_EQ(strata(measure + " -o page.html").code, 0);
+    const std::string text = file_text(page());
+    EXPECT_LT(text.size(), 5'000'000u);
+    EXPECT_THAT(text, Not(HasSubstr("{{")));
+    EXPECT_FALSE(asks_a_network(text));
+    EXPECT_THAT(text, HasSubstr("<h1>Keep alpha_blend over 2 frames: "));
+    EXPECT_THAT(text, HasSubstr("<dt>k_buffer</dt><dd>"));
+    const json reports = json::parse(strata(measure + " --json").out)["reports"];
+    ASSERT_EQ(reports.size(), 2u);
+    if (!Browser::is_there()) return;
+    Browser browser(page());
+    const auto is = [&](const std::string& expression) { return browser.becomes_true(expression); };
+    for (std::size_t frame = 0; frame < reports.size(); ++frame) {
+        const json& row = reports[frame]["rows"][1];
+        ASSERT_EQ(row["technique"], "transparency/weighted");
+        const std::string cell = fmt::format(".matrix a[data-frame=\"{}\"][data-row=\"1\"]", frame);
+        const double shown = std::stod(browser.value("document.querySelector('" + cell + "').textContent").get<std::string>());
+        EXPECT_NEAR(shown / 100, row["ranking_error"].get<double>(), 1e-3 * shown / 100);
+        // A cell opens its row on its frame, whose page is as high as it needs and as dark as this one.
+        browser.value("document.querySelector('" + cell + "').click()");
+        const std::string frame_page = fmt::format("document.querySelectorAll('.frame iframe')[{}]", frame);
+        EXPECT_TRUE(is(frame_page + ".contentDocument.querySelector('#name').textContent === 'weighted'"));
+        EXPECT_TRUE(is(fmt::format("document.querySelectorAll('.frame')[{}].open", frame)));
+        EXPECT_TRUE(is(frame_page + ".clientHeight >= " + frame_page + ".contentDocument.body.offsetHeight"));
+        EXPECT_TRUE(is(frame_page + ".contentDocument.querySelectorAll('.three .pic').length >= 2"));
+    }
+    browser.press('t');
+    EXPECT_TRUE(
+        is("[...document.querySelectorAll('.frame iframe')].every(frame => frame.contentDocument.documentElement.dataset.theme "
+           "=== document.documentElement.dataset.theme)"));
+    browser.value("document.querySelectorAll('.frame').forEach(frame => frame.open = false)");
+    browser.press('p'), browser.press('p');
+    EXPECT_TRUE(is("document.querySelectorAll('.frame')[0].open"));
+    browser.press('n');
+    EXPECT_TRUE(is("document.querySelectorAll('.frame')[1].open"));
+    browser.press('?');
+    EXPECT_TRUE(is("document.querySelector('#keys').open"));
+    EXPECT_THAT(browser.complaints(), testing::IsEmpty());
+}
+
+TEST(Page, IsOfReportsAlone) {
     ASSERT_EQ(strata("record three_panes -o a.strata --size 16x9").code, 0);
-    EXPECT_THAT(strata("report a.strata a.strata -o page.html -v"), Refuses(2, "report.page_of_one"));
     EXPECT_THAT(strata("report a.strata --json -o page.html -v"), Refuses(2, "output.ending_contradicts"));
     EXPECT_THAT(strata("report --hard-cases -o page.html -v"), Refuses(2, "output.unknown_ending"));
     EXPECT_FALSE(std::filesystem::exists(page()));

@@ -11,6 +11,7 @@
 #include "replay/markup_text.h"
 #include "replay/page_parts.h"
 #include "replay/plural.h"
+#include "replay/report/page/scale.h"
 #include "replay/report/page/scatter.h"
 #include "replay/report/report_columns.h"
 #include "replay/report/seen.h"
@@ -28,20 +29,20 @@ using nlohmann::ordered_json;
 
 constexpr std::string_view ranking_key = "ranking_error";
 
-/// "0.04 % of white, not seen"; another error than of white has no words.
 std::string error_words(const Measurement& row) {
     const Metric& metric = ranking_metric(row);
-    if (!is_of_white(metric)) return fmt::format("{} {}", metric.name, short_number(metric.value));
-    const std::string percent =
-        metric.value < exact_below ? fmt::format("under {:g}", 100 * exact_below) : short_number(100 * metric.value);
-    return fmt::format("{} % of white, {}", percent, seen_as(metric.value).words);
+    return strata::error_words({metric.name, is_of_white(metric)}, metric.value);
 }
 
 /// The parts of a page; each fills a place of page.html.
 class HtmlPage {
 public:
-    explicit HtmlPage(const Report& report)
-        : report_(report), asked_(asked_standings(report)), answer_(answer_of(report)), sheet_(sheet_of(report)) {
+    HtmlPage(const Report& report, std::size_t picture_bytes)
+        : report_(report),
+          picture_bytes_(picture_bytes),
+          asked_(asked_standings(report)),
+          answer_(answer_of(report)),
+          sheet_(sheet_of(report)) {
         for (const Measurement& row : report.rows)
             if (!kinds_.contains(row.technique)) kinds_.emplace(row.technique, kinds_.size());
         choose_pictures();
@@ -59,7 +60,7 @@ public:
             {"answer", answer()},
             {"command", shown_ ? command(report_.rows[*shown_]) : ""},
             {"three", three()},
-            {"scale", scale()},
+            {"scale", scale_html(ranking_error(report_))},
             {"axes", axis_choices()},
             {"plots", plots()},
             {"techniques", techniques()},
@@ -71,6 +72,20 @@ public:
             {"pages_js", std::string(pages_js)},
             {"js", std::string(page_js)}};
         return filled(page_html, parts);
+    }
+
+    std::string verdict() const {
+        if (!report_.skipped.empty()) return fmt::format("The frame does not need this stage: {}", report_.skipped);
+        if (changes_too_little(report_))
+            return fmt::format("No answer: {} changes fewer than {} pixels of this view", name(report_.stage), fewest_pixels);
+        if (!shown_) return "No technique can do this frame";
+        const Measurement& row = report_.rows[*shown_];
+        const std::string facts = fmt::format("{}{}{}", error_words(row), report_.is_timed ? ", at " : "", time_words(row));
+        if (!report_.question.is_asked())
+            return fmt::format("{} is the most accurate of {}: {}", short_label(row), plural(report_.rows.size(), "row"), facts);
+        if (!answer_.recommended)
+            return fmt::format("No technique keeps the limits; {} is the nearest: {}", short_label(row), facts);
+        return fmt::format("{} {}: {}", shown_ == baseline_of(report_) ? "Keep" : "Use", short_label(row), facts);
     }
 
 private:
@@ -90,14 +105,14 @@ private:
         std::size_t bytes = report_.truth_picture.size();
         for (const std::size_t i : order) {
             bytes += report_.rows[i].picture->png.size();
-            has_picture_[i] = bytes * 4 / 3 <= page_picture_bytes;
+            has_picture_[i] = bytes * 4 / 3 <= picture_bytes_;
         }
         // Maps of the rows that one looks at, as far as there is room.
         has_flip_.resize(report_.rows.size());
         for (const std::size_t i : order) {
             if (report_.rows[i].picture->flip_png.empty()) continue;
             bytes += report_.rows[i].picture->flip_png.size();
-            has_flip_[i] = has_picture_[i] && bytes * 4 / 3 <= page_picture_bytes;
+            has_flip_[i] = has_picture_[i] && bytes * 4 / 3 <= picture_bytes_;
         }
     }
 
@@ -121,20 +136,6 @@ private:
               fmt::format("stage {}", name(report_.stage)), plural(report_.rows.size(), "row"), report_.date})
             if (!part.empty()) text += fmt::format("<span>{}</span>", escaped(part));
         return text;
-    }
-
-    std::string verdict() const {
-        if (!report_.skipped.empty()) return fmt::format("The frame does not need this stage: {}", report_.skipped);
-        if (changes_too_little(report_))
-            return fmt::format("No answer: {} changes fewer than {} pixels of this view", name(report_.stage), fewest_pixels);
-        if (!shown_) return "No technique can do this frame";
-        const Measurement& row = report_.rows[*shown_];
-        const std::string facts = fmt::format("{}{}{}", error_words(row), report_.is_timed ? ", at " : "", time_words(row));
-        if (!report_.question.is_asked())
-            return fmt::format("{} is the most accurate of {}: {}", short_label(row), plural(report_.rows.size(), "row"), facts);
-        if (!answer_.recommended)
-            return fmt::format("No technique keeps the limits; {} is the nearest: {}", short_label(row), facts);
-        return fmt::format("{} {}: {}", shown_ == baseline_of(report_) ? "Keep" : "Use", short_label(row), facts);
     }
 
     std::string notes() const {
@@ -193,20 +194,6 @@ private:
         const auto baseline = baseline_of(report_);
         if (baseline && baseline != shown_ && report_.rows[*baseline].is_measured()) add(*baseline, "baseline");
         return text;
-    }
-
-    std::string scale() const {
-        if (!ranking_error(report_).is_of_white) return "";
-        std::string text = "<div class=\"scale\">";
-        const auto classes = seen_classes();
-        for (std::size_t i = 0; i < classes.size(); ++i) {
-            const std::string to = i + 1 < classes.size() ? fmt::format("{:g}", 100 * classes[i + 1].from) : "";
-            const std::string range = i == 0       ? fmt::format("below {} %", to)
-                                      : to.empty() ? fmt::format("from {:g} %", 100 * classes[i].from)
-                                                   : fmt::format("{:g} to {} %", 100 * classes[i].from, to);
-            text += fmt::format("<div><i class=\"k{}\"></i><b>{}</b> {}</div>", i, range, classes[i].words);
-        }
-        return text + "</div>\n";
     }
 
     std::vector<std::size_t> axes(Role role) const {
@@ -314,7 +301,7 @@ private:
             for (const std::size_t column : shown) {
                 const auto number = cell_number(row.values[column]);
                 text += fmt::format("<td{}>{}{}</td>", number ? fmt::format(" data-v=\"{:.9g}\"", *number) : "",
-                                    sheet_.columns[column].key == ranking_key ? class_square(report_.rows[i]) : "",
+                                    sheet_.columns[column].key == ranking_key ? square(report_.rows[i]) : "",
                                     escaped(cell_text(sheet_.columns[column], row.values[column])));
             }
             text += "</tr>\n";
@@ -322,11 +309,7 @@ private:
         return text + "</tbody></table>\n";
     }
 
-    static std::string class_square(const Measurement& row) {
-        const Metric& metric = ranking_metric(row);
-        if (!is_of_white(metric)) return "";
-        return fmt::format("<i class=\"k{}\"></i>", &seen_as(metric.value) - seen_classes().data());
-    }
+    static std::string square(const Measurement& row) { return class_square(ranking_error(row), ranking_metric(row).value); }
 
     std::string small_pictures() const {
         if (report_.truth_picture.empty())
@@ -373,6 +356,7 @@ private:
     }
 
     const Report& report_;
+    std::size_t picture_bytes_;
     std::vector<Standing> asked_;
     Answer answer_;
     Sheet sheet_;
@@ -383,6 +367,8 @@ private:
 
 }  // namespace
 
-std::string as_html(const Report& report) { return HtmlPage(report).text(); }
+std::string as_html(const Report& report, std::size_t picture_bytes) { return HtmlPage(report, picture_bytes).text(); }
+
+std::string verdict_of(const Report& report) { return HtmlPage(report, 0).verdict(); }
 
 }  // namespace strata

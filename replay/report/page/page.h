@@ -1,14 +1,22 @@
 // A report as one file for a browser: the answer, the plots, the pictures, the table. It asks nothing of a network.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 
-#include "replay/report/report.h"
+#include "replay/markup_text.h"
+#include "replay/report/pooled.h"
 
 namespace strata {
 
 /// HTML. Of a report without pictures (ReportRequest::wants_pictures) it shows none; where there are more than
-/// page_picture_bytes, those of the answer and of rows on the front come first.
-std::string as_html(const Report&);
+/// `picture_bytes`, those of the answer and of rows on the front come first.
+std::string as_html(const Report&, std::size_t picture_bytes = page_picture_bytes);
+/// Its heading: "Use weighted: 0.4 % of white, not seen, at 0.62 times the time of alpha_blend".
+std::string verdict_of(const Report&);
+
+/// Reports of several frames: the answer over all, which rows are how wrong on which frame, and the page of each.
+std::string as_html(std::span<const Report>, const Pool&);
 
 }  // namespace strata

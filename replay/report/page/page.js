@@ -113,7 +113,7 @@ async function magnify(over) {
 function choose(row) {
   if (row === null || row < 0 || row >= rows.length) return;
   state.row = row; state.pin = null;
-  history.replaceState(null, '', '#' + encodeURIComponent(rows[row].name));
+  if (location.protocol !== 'about:') history.replaceState(null, '', '#' + encodeURIComponent(rows[row].name));
   $('#name').textContent = rows[row].name; $('#says').textContent = rows[row].says; $('#command').textContent = rows[row].command || '';
   all('#selected .cmd').forEach(line => { line.hidden = !rows[row].command; });
   all('.chosen').forEach(element => element.classList.remove('chosen'));

@@ -16,8 +16,15 @@ namespace {
 
 // Pixels of the drawing and of its parts.
 constexpr double width = 720, height = 560, left = 58, top = 26, right = 12, foot = 44, strip = 36;
-// Size of a label's text, and of its widest letters.
-constexpr double text_size = 12, wide_letter = .58 * text_size, mark_radius = 6;
+constexpr double text_size = 12, mark_radius = 6;
+
+/// At most as wide as this in fonts without serifs: narrow, wide and other letters.
+double text_width(std::string_view text) {
+    constexpr std::string_view narrow = "fijlrt.,:;'|()[]I ", wide = "mwMW%@";
+    double width = 0;
+    for (const char letter : text) width += narrow.find(letter) != narrow.npos ? .42 : wide.find(letter) != wide.npos ? .98 : .65;
+    return width * text_size;
+}
 
 struct TextBox {
     double x0, y0, x1, y1;
@@ -83,7 +90,7 @@ public:
     void keep_clear(const TextBox& box) { taken_.push_back(box); }
 
     std::optional<PlacedLabel> place(double x, double y, std::string_view text) {
-        const double wide = double(text.size()) * wide_letter;
+        const double wide = text_width(text);
         for (const double away : {10., 16., 24., 34., 48.})
             for (const auto& [dx, dy] : directions) {
                 const double at_x = x + dx * away, at_y = y + dy * away;
@@ -154,7 +161,7 @@ private:
         if (!plot_.most_x && !plot_.most_y) return "";
         const double x = plot_.most_x ? x_.at(*plot_.most_x) : width - right, y = plot_.most_y ? y_.at(*plot_.most_y) : top;
         const std::string_view says = plot_.most_x && plot_.most_y ? "keeps both limits" : "keeps the limit";
-        labels_.keep_clear({left, y, left + 6 + double(says.size()) * wide_letter, y + 20});
+        labels_.keep_clear({left, y, left + 6 + text_width(says), y + 20});
         return fmt::format(R"(<rect class="ok" x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"/>)", left, y, x - left,
                            bottom() + strip - y) +
                text_at(left + 6, y + 16, "start", "band", says);

@@ -1,0 +1,227 @@
+// The page of several frames: their pool on top, the page of each frame inside.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "passes/stages.h"
+#include "replay/page_parts.h"
+#include "replay/plural.h"
+#include "replay/report/page/page.h"
+#include "replay/report/page/scale.h"
+#include "replay/report/page/scatter.h"
+#include "replay/report/report_columns.h"
+#include "replay/report/variants.h"
+#include "replay/report/warnings.h"
+
+namespace strata {
+namespace {
+
+class FramesPage {
+public:
+    FramesPage(std::span<const Report> reports, const Pool& pool)
+        : reports_(reports), pool_(pool), answer_(answer_of(pool)), names_(frame_names(reports)) {
+        for (const PooledRow& row : pool.rows)
+            if (!kinds_.contains(row.technique)) kinds_.emplace(row.technique, kinds_.size());
+        shown_ = answer_.recommended ? answer_.recommended : answer_.nearest;
+        if (!shown_ && !pool.rows.empty() && is_ranked(pool.rows.front())) shown_ = 0;
+    }
+
+    std::string text() const {
+        const std::map<std::string_view, std::string> parts = {
+            {"title", escaped(fmt::format("{}: {}", frames_text(pool_), name(pool_.stage)))},
+            {"css", std::string(page_css)},
+            {"own_css", std::string(frames_css)},
+            {"provenance", provenance()},
+            {"verdict", escaped(verdict())},
+            {"notes", notes()},
+            {"answer", answer()},
+            {"command", command()},
+            {"plot", plot()},
+            {"pooled_as", pooled_as()},
+            {"scale", scale_html(pool_.error)},
+            {"matrix", matrix()},
+            {"left_out", left_out()},
+            {"frames", frames()},
+            {"text", fmt::format("<pre>{}</pre>\n", escaped(as_text(pool_)))},
+            {"pages_js", std::string(pages_js)},
+            {"js", std::string(frames_js)}};
+        return filled(frames_html, parts);
+    }
+
+private:
+    bool is_ranked(const PooledRow& row) const { return row.frames == pool_.frames && !row.has_other_truth; }
+
+    std::string provenance() const {
+        std::string text;
+        for (const std::string& part : {plural(reports_.size(), "frame"), fmt::format("stage {}", name(pool_.stage)),
+                                        plural(pool_.rows.size(), "row"), reports_.front().device.name, reports_.front().date})
+            if (!part.empty()) text += fmt::format("<span>{}</span>", escaped(part));
+        return text;
+    }
+
+    std::string facts(const PooledRow& row) const {
+        std::string text = error_words(pool_.error, row.error) + (pool_.captures > 1 ? ", the mean of captures" : "");
+        if (pool_.captures == 1 && pool_.frames > 1) text += fmt::format(", on {}", row.worst_frame);
+        const std::string unit = below_stage(pool_.time_unit);
+        if (!pool_.question.gpu.empty() && std::isfinite(row.asked.time))
+            text += fmt::format(", at {:.2f} \u00d7 the modeled time of {} on {}", row.asked.time, unit, pool_.question.gpu);
+        else if (row.time && !unit.empty()) text += fmt::format(", at {:.2f} \u00d7 the time of {}", *row.time, unit);
+        return text;
+    }
+
+    std::string verdict() const {
+        if (pool_.frames == 0 && pool_.left_out.empty()) return "No frame needs this stage";
+        if (pool_.frames == 0)
+            return fmt::format("No answer: {} changes fewer than {} pixels of each frame", name(pool_.stage), fewest_pixels);
+        if (!shown_) return "No technique can do all of these frames";
+        const PooledRow& row = pool_.rows[*shown_];
+        if (!pool_.question.is_asked())
+            return fmt::format("{} is the most accurate of {} over {}: {}", short_label(row), plural(pool_.rows.size(), "row"),
+                               frames_text(pool_), facts(row));
+        if (!answer_.recommended)
+            return fmt::format("No technique keeps the limits over {}; {} is the nearest: {}", frames_text(pool_),
+                               short_label(row), facts(row));
+        const bool is_baseline = row.technique == pool_.time_unit && row.settings.empty();
+        return fmt::format("{} {} over {}: {}", is_baseline ? "Keep" : "Use", short_label(row), frames_text(pool_), facts(row));
+    }
+
+    std::string notes() const {
+        std::string text;
+        const auto add = [&](const std::string& note) {
+            if (!note.empty()) text += fmt::format("<p class=\"warn\">{}</p>\n", escaped(note));
+        };
+        add(pool_.times_are);
+        for (std::size_t i = 0; i < reports_.size(); ++i)
+            for (const Warning& warning : warnings_of(reports_[i])) add(fmt::format("{}: {}", names_[i], warning.text));
+        add(reports_.back().stopped);
+        return text;
+    }
+
+    std::string answer() const {
+        std::string text;
+        for (const AnswerLine& line : answer_lines(pool_))
+            if (line.head != replay_head && line.text != pool_.times_are)
+                text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(line.head), escaped(line.text));
+        return text.empty() ? "" : "<dl>\n" + text + "</dl>\n";
+    }
+
+    std::string command() const {
+        if (!shown_ || pool_.rows[*shown_].command.empty()) return "";
+        return fmt::format("<div class=\"cmd\"><code>{}</code><button class=\"copy js\">copy</button></div>\n",
+                           escaped(pool_.rows[*shown_].command));
+    }
+
+    double scaled(double error) const { return pool_.error.is_of_white ? 100 * error : error; }
+
+    std::string plot() const {
+        if (pool_.time_unit.empty()) return "";
+        ScatterPlot made{.x_title = fmt::format("time, x {}", below_stage(pool_.time_unit)), .y_title = title_of(pool_.error)};
+        if (pool_.error.is_of_white) made.y_floor = 100 * exact_below, made.strip_title = fmt::format("< {:g}", made.y_floor);
+        if (pool_.question.error) made.most_y = scaled(*pool_.question.error);
+        if (pool_.question.within && pool_.question.gpu.empty()) made.most_x = pool_.question.within;
+        for (std::size_t i = 0; i < pool_.rows.size(); ++i) {
+            const PooledRow& row = pool_.rows[i];
+            if (!row.time || !is_ranked(row)) continue;
+            made.points.push_back({.label = short_label(row),
+                                   .place = i,
+                                   .kind = kinds_.at(row.technique),
+                                   .x = *row.time,
+                                   .y = scaled(row.error),
+                                   .is_emphasized = i == shown_});
+        }
+        return made.points.empty() ? "" : as_svg(made);
+    }
+
+    std::string pooled_as() const {
+        const bool has_several = pool_.frames > pool_.captures;
+        std::string text = has_several ? "Of a capture the worst frame decides." : "";
+        if (pool_.captures > 1) text += fmt::format("{}Over captures it is the mean.", has_several ? " " : "");
+        return text + " Times are geometric means.";
+    }
+
+    /// The error of a pooled row on a frame, or why there is none.
+    std::string cell(const PooledRow& row, std::size_t frame) const {
+        const Report& report = reports_[frame];
+        const auto found = std::ranges::find_if(
+            report.rows, [&](const Measurement& own) { return own.technique == row.technique && own.settings == row.settings; });
+        const auto without = [](std::string_view word, const std::string& why) {
+            return fmt::format("<td title=\"{}\">{}</td>", escaped(why), word);
+        };
+        if (!report.skipped.empty()) return without("not needed", report.skipped);
+        if (found == report.rows.end()) return without("not measured", "stopped before");
+        if (!found->is_measured()) return without("cannot", found->accuracy.not_supported);
+        if (changes_too_little(report)) return without("too few pixels", "left out of the pool");
+        const double value = ranking_metric(*found).value;
+        return fmt::format("<td{}><a href=\"#frame-{}\" data-frame=\"{}\" data-row=\"{}\">{}{}</a></td>",
+                           names_[frame] == row.worst_frame ? " class=\"worst\"" : "", frame, frame, found - report.rows.begin(),
+                           class_square(pool_.error, value), pool_.error.text(value));
+    }
+
+    std::string matrix() const {
+        std::string text = fmt::format(
+            "<table class=\"rows matrix\"><thead><tr><th>{} and settings</th><th>pooled</th>"
+            "<th>time, x {}</th>",
+            name(pool_.stage), escaped(below_stage(pool_.time_unit)));
+        for (const std::string& frame : names_) text += fmt::format("<th>{}</th>", escaped(frame));
+        text += "</tr></thead>\n<tbody>\n";
+        for (const PooledRow& row : pool_.rows) {
+            text += fmt::format("<tr><td>{}{}{}</td>", mark(row.technique), escaped(short_label(row)),
+                                row.on_front ? " <b title=\"nothing is both more accurate and faster\">*</b>" : "");
+            text += is_ranked(row)
+                        ? fmt::format("<td>{}{}</td>", class_square(pool_.error, row.error), pool_.error.text(row.error))
+                        : std::string("<td>not ranked</td>");
+            text += fmt::format("<td>{}</td>", row.time ? fmt::format("{:.2f}", *row.time) : "");
+            for (std::size_t frame = 0; frame < reports_.size(); ++frame) text += cell(row, frame);
+            text += "</tr>\n";
+        }
+        return text + "</tbody></table>\n";
+    }
+
+    /// What no frame has a number for, with the reason of the first.
+    std::string left_out() const {
+        std::map<std::string, std::string> reasons;
+        for (const Report& report : reports_)
+            for (const Measurement& row : report.rows)
+                if (!row.accuracy.not_supported.empty()) reasons.emplace(short_label(row), row.accuracy.not_supported);
+        for (const PooledRow& row : pool_.rows) reasons.erase(short_label(row));
+        std::string text;
+        for (const auto& [row, reason] : reasons) text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(row), escaped(reason));
+        return text.empty() ? "" : "<h3>Not in the table</h3><dl>\n" + text + "</dl>\n";
+    }
+
+    std::string mark(const std::string& technique) const {
+        const std::size_t kind = kinds_.at(technique);
+        return fmt::format("<svg class=\"mark\" viewBox=\"-7 -7 14 14\"><path class=\"{} full\" d=\"{}\"/></svg>",
+                           mark_class(kind), mark_path(kind));
+    }
+
+    /// Open is the frame on which the row of the answer is worst.
+    std::string frames() const {
+        const auto worst = shown_ ? std::ranges::find(names_, pool_.rows[*shown_].worst_frame) : names_.begin();
+        std::string text;
+        for (std::size_t i = 0; i < reports_.size(); ++i) {
+            const bool is_open = worst == names_.end() ? i == 0 : worst == names_.begin() + std::ptrdiff_t(i);
+            text += fmt::format(
+                "<details class=\"frame\" id=\"frame-{}\"{}><summary><b>{}</b> {}</summary>\n"
+                "<iframe title=\"{}\" srcdoc=\"{}\"></iframe></details>\n",
+                i, is_open ? " open" : "", escaped(names_[i]), escaped(verdict_of(reports_[i])), escaped(names_[i]),
+                escaped(as_html(reports_[i], page_picture_bytes / reports_.size())));
+        }
+        return text;
+    }
+
+    std::span<const Report> reports_;
+    const Pool& pool_;
+    Answer answer_;
+    std::vector<std::string> names_;
+    std::map<std::string, std::size_t> kinds_;  ///< by technique
+    std::optional<std::size_t> shown_;          ///< the row of the heading
+};
+
+}  // namespace
+
+std::string as_html(std::span<const Report> reports, const Pool& pool) { return FramesPage(reports, pool).text(); }
+
+}  // namespace strata
