@@ -35,6 +35,8 @@ std::string escaped(std::string_view text) {
 
 std::string png_uri(std::span<const std::byte> png) { return "data:image/png;base64," + base64(png); }
 
+std::string svg_uri(std::string_view svg) { return "data:image/svg+xml;base64," + base64(std::as_bytes(std::span(svg))); }
+
 std::string filled(std::string_view text, const std::map<std::string_view, std::string>& parts) {
     std::string made;
     for (std::size_t at = 0;;) {

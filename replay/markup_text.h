@@ -19,6 +19,9 @@ std::string escaped(std::string_view);
 /// A PNG as a URI that holds it.
 std::string png_uri(std::span<const std::byte> png);
 
+/// The same of an SVG.
+std::string svg_uri(std::string_view svg);
+
 /// A template with its {{places}} filled. Every place has a part.
 std::string filled(std::string_view text, const std::map<std::string_view, std::string>& parts);
 

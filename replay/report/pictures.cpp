@@ -9,9 +9,12 @@
 #include "passes/reference/display_light.h"
 #include "passes/reference/textures.h"
 #include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/difference/canvas.h"
 #include "replay/images/image_io.h"
 #include "replay/measure/flip.h"
+#include "replay/probe/probe.h"
+#include "replay/report/variants.h"
 #include "replay/session/light_unit.h"
 
 namespace strata {
@@ -86,6 +89,15 @@ std::vector<bool> rows_looked_at(const Report& report) {
     return looked_at;
 }
 
+/// What a row makes of the light behind the fragments of a pixel; empty where it has none, and of other stages.
+Result<std::string> worst_pixel(Session& session, const ReportRequest& wanted, const Variant& row, const RowPicture& picture) {
+    if (wanted.stage != Stage::transparency) return std::string();
+    const auto made = probe(session, wanted.base, {.x = picture.worst_x, .y = picture.worst_y},
+                            {.variants = {label(row.technique->name, row.settings)}, .samples = 256});
+    if (made) return as_svg(*made);
+    return made.error().fault == Fault::usage ? Result<std::string>(std::string()) : Result<std::string>(made.error());
+}
+
 /// Makes pictures of one stage of one frame.
 class Pictures {
 public:
@@ -142,6 +154,9 @@ Result<void> add_pictures(Session& session, const ReportRequest& wanted, std::sp
         if (!row) return row.error();
         report.rows[i].picture = row_picture(*row, *truth);
         if (looked_at[i]) report.rows[i].picture->flip_png = flip_png(*row, *truth);
+        auto svg = worst_pixel(session, wanted, all[i], *report.rows[i].picture);
+        if (!svg) return svg.error();
+        report.rows[i].picture->probe_svg = *std::move(svg);
     }
     return {};
 }

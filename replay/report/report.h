@@ -43,7 +43,8 @@ enum class RankedBy { display_rmse, relative_rmse };
 
 struct ReportRequest {
     Request base;  ///< frame, other stages' choices
-    /// None: of the stage where it makes radiance or the picture itself, else of the picture if the truth can take its place there.
+    /// None: of the stage where it makes radiance or the picture itself, else of the picture if the truth can take its place
+    /// there.
     std::optional<ErrorAt> error_at;
     RankedBy ranked_by = RankedBy::display_rmse;
     Stage stage = Stage::transparency;
@@ -66,6 +67,13 @@ struct RowPicture {
     std::vector<std::byte> png;              ///< RGBA; what shows as the truth does is transparent
     std::uint32_t worst_x = 0, worst_y = 0;  ///< the pixel that is furthest from the truth's, as sRGB encodes both
     std::vector<std::byte> flip_png;         ///< FLIP's map in colors of magma(): RGB; empty where a page does not show it
+    std::string probe_svg;                   ///< the worst pixel's fragments and T(z) (probe.h); empty where there are none
+};
+
+/// A step of a technique, or what the host does before its steps.
+struct StepTime {
+    std::string name;  ///< StepRecord::name, or "sort on the CPU"
+    Spread ms;
 };
 
 /// On a GPU that need not be there: modeled_cost.h.
@@ -87,6 +95,7 @@ struct Measurement {
     ModelKind model_is = ModelKind::paper;
     Spread stage_ms, frame_ms;
     std::optional<Spread> time;               ///< stage_ms as multiples of the time unit's, repeat by repeat
+    std::vector<StepTime> steps;              ///< of stage_ms, in the order of the frame
     std::vector<double> repeats_ms;           ///< the stage's times, in the order of the repeats
     std::vector<double> baseline_repeats_ms;  ///< the time unit's in the same repeats; empty where there is no `time`
     std::optional<Spread> sort_ms;            ///< of stage_ms: what the host sorts in every frame

@@ -10,6 +10,16 @@ namespace {
 
 void append(std::vector<double>& to, const std::vector<double>& from) { to.insert(to.end(), from.begin(), from.end()); }
 
+/// The steps of the stage's technique. A row has the same ones in every run.
+void append_steps(std::vector<std::pair<std::string, std::vector<double>>>& to, const Run& run, Stage stage) {
+    std::size_t place = 0;
+    for (const StepRecord& step : run.steps) {
+        if (step.scope.kind != ScopeKind::pass || step.scope.stage != stage) continue;
+        if (place == to.size()) to.emplace_back(step.name, std::vector<double>());
+        append(to[place++].second, step.ms_by_repeat);
+    }
+}
+
 }  // namespace
 
 Result<void> RowTimes::time(std::vector<std::size_t> rows, std::size_t repeats, const Progress& progress) {
@@ -34,6 +44,7 @@ Result<void> RowTimes::time(std::vector<std::size_t> rows, std::size_t repeats, 
         append(row.unit_ms, unit_ms);
         if (const auto sorts = run.stage_sort_ms_by_repeat.find(stage); sorts != run.stage_sort_ms_by_repeat.end())
             append(row.sort_ms, sorts->second);
+        append_steps(row.steps_ms, run, stage_);
         if (const auto bytes = run.stage_bytes.find(stage); bytes != run.stage_bytes.end()) row.bytes = bytes->second;
         if (const auto ran = run.stage_invocations.find(stage); ran != run.stage_invocations.end()) row.invocations = ran->second;
         row.counters.clear();
@@ -49,6 +60,9 @@ void RowTimes::add_to(Measurement& measured, std::size_t index, const Report& re
     measured.frame_ms = spread_of(row.frame_ms);
     if (!row.sort_ms.empty()) measured.sort_ms = spread_of(row.sort_ms);
     measured.repeats_ms = row.stage_ms;
+    measured.steps.clear();
+    if (!row.sort_ms.empty()) measured.steps.push_back({"sort on the CPU", spread_of(row.sort_ms)});
+    for (const auto& [name, ms] : row.steps_ms) measured.steps.push_back({name, spread_of(ms)});
     if (has_unit()) {
         measured.time = ratio_of(row.stage_ms, row.unit_ms);
         measured.baseline_repeats_ms = row.unit_ms;

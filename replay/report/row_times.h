@@ -36,7 +36,8 @@ private:
         std::optional<std::uint64_t> invocations;  ///< and how often its shaders ran
         std::vector<CounterRecord> counters;
         std::vector<double> stage_ms, frame_ms, sort_ms;
-        std::vector<double> unit_ms;  ///< the unit's stage_ms in the same turns
+        std::vector<std::pair<std::string, std::vector<double>>> steps_ms;  ///< by name
+        std::vector<double> unit_ms;                                        ///< the unit's stage_ms in the same turns
     };
     Session* session_;
     Stage stage_;

@@ -81,6 +81,36 @@ TEST(Page, HoldsTheAnswerThePicturesAndTheTableInOneFile) {
     }
 }
 
+/// The worst pixel of each row with its own fragments; the steps of a row that ran once make up its time.
+TEST(Page, ShowsWhereARowIsWorstAndWhatItsStepsTake) {
+    ASSERT_EQ(strata("record interpenetrating_panes -o a.strata --size 64x36").code, 0);
+    ASSERT_EQ(strata("report a.strata --techniques weighted,alpha_blend --repeats 1 -o page.html").code, 0);
+    const std::string text = file_text(page());
+    const json data = data_of(text);
+    constexpr std::string_view open = "src=\"data:image/svg+xml;base64,";
+    std::size_t at = 0;
+    for (const json& row : data["rows"]) {
+        at = text.find(open, at) + open.size();
+        const std::string svg = from_base64(std::string_view(text).substr(at, text.find('"', at) - at));
+        EXPECT_THAT(svg, HasSubstr(fmt::format("pixel ({}, {})", row["worst"][0].get<int>(), row["worst"][1].get<int>())));
+        EXPECT_THAT(svg, HasSubstr(">" + row["name"].get<std::string>() + "<"));
+    }
+    const json report = json::parse(strata("report a.strata --techniques weighted,alpha_blend --repeats 1 --json").out);
+    for (const json& row : report["rows"]) {
+        double sum = 0;
+        for (const json& step : row["steps"]) sum += step["ms"].get<double>();
+        EXPECT_NEAR(sum, row["stage_ms"]["median"].get<double>(), 1e-6 * sum) << row["technique"];
+    }
+    EXPECT_GE(report["rows"][1]["steps"].size(), 2u);
+    if (!Browser::is_there()) return;
+    Browser browser(page());
+    browser.value("document.querySelector('.rows tbody tr:last-child').click()");
+    EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('#steps tbody tr').length >= 2"));
+    browser.value("document.querySelector('#probe summary').click()");
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('#probe img').naturalWidth > 0"));
+    EXPECT_THAT(browser.complaints(), testing::IsEmpty());
+}
+
 TEST(Page, ShowsTheTruthsRadianceAsADisplayDoes) {
     make_page();
     const HostImage truth = truth_of(file_text(page()));

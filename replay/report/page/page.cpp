@@ -114,6 +114,11 @@ private:
             bytes += report_.rows[i].picture->flip_png.size();
             has_flip_[i] = has_picture_[i] && bytes * 4 / 3 <= picture_bytes_;
         }
+        has_probe_.resize(report_.rows.size());
+        for (const std::size_t i : order) {
+            bytes += report_.rows[i].picture->probe_svg.size();
+            has_probe_[i] = has_picture_[i] && !report_.rows[i].picture->probe_svg.empty() && bytes * 4 / 3 <= picture_bytes_;
+        }
     }
 
     std::string time_words(const Measurement& row) const {
@@ -176,6 +181,12 @@ private:
         return has_flip_[row]
                    ? fmt::format("<img class=\"flip\" hidden alt=\"\" src=\"{}\">", png_uri(report_.rows[row].picture->flip_png))
                    : "";
+    }
+
+    std::string worst_pixel(std::size_t row) const {
+        return has_probe_[row] ? fmt::format("<img class=\"probe\" hidden alt=\"\" src=\"{}\">",
+                                             svg_uri(report_.rows[row].picture->probe_svg))
+                               : "";
     }
 
     /// Truth, the row of the answer and the baseline. Their pictures are those of the sheet, which the script puts here, so that
@@ -317,9 +328,9 @@ private:
         std::string text;
         for (std::size_t i = 0; i < report_.rows.size(); ++i)
             if (report_.rows[i].picture)
-                text += fmt::format("<figure data-i=\"{}\">{}{}<figcaption>{}<b>{}</b><br>{}</figcaption></figure>\n", i,
-                                    picture(i), flip(i), mark(report_.rows[i].technique), escaped(short_label(report_.rows[i])),
-                                    escaped(error_words(report_.rows[i])));
+                text += fmt::format("<figure data-i=\"{}\">{}{}{}<figcaption>{}<b>{}</b><br>{}</figcaption></figure>\n", i,
+                                    picture(i), flip(i), worst_pixel(i), mark(report_.rows[i].technique),
+                                    escaped(short_label(report_.rows[i])), escaped(error_words(report_.rows[i])));
         return text;
     }
 
@@ -346,6 +357,7 @@ private:
                 made["says"] = fmt::format("{}{}{}", error_words(row), report_.is_timed ? " \u00b7 " : "", time_words(row));
                 made["command"] = command_of(report_, row);
             } else made["says"] = row.accuracy.not_supported;
+            for (const StepTime& step : row.steps) made["steps"].push_back({step.name, step.ms.median});
             if (has_picture_[i]) made["worst"] = {row.picture->worst_x, row.picture->worst_y};
             json["rows"].push_back(std::move(made));
         }
@@ -360,9 +372,9 @@ private:
     std::vector<Standing> asked_;
     Answer answer_;
     Sheet sheet_;
-    std::map<std::string, std::size_t> kinds_;  ///< by technique
-    std::optional<std::size_t> shown_;          ///< the row that the page opens on
-    std::vector<bool> has_picture_, has_flip_;  ///< by row
+    std::map<std::string, std::size_t> kinds_;              ///< by technique
+    std::optional<std::size_t> shown_;                      ///< the row that the page opens on
+    std::vector<bool> has_picture_, has_flip_, has_probe_;  ///< by row
 };
 
 }  // namespace

@@ -118,7 +118,25 @@ function choose(row) {
   all('#selected .cmd').forEach(line => { line.hidden = !rows[row].command; });
   all('.chosen').forEach(element => element.classList.remove('chosen'));
   all(`.pt[data-i="${row}"], .rows tr[data-i="${row}"], .sheet figure[data-i="${row}"]`).forEach(element => element.classList.add('chosen'));
+  steps(row); worstPixel(row);
   view();
+}
+
+function steps(row) {
+  const own = rows[row].steps || [], most = Math.max(...own.map(step => step[1]));
+  $('#steps').hidden = own.length < 2;
+  $('#steps tbody').replaceChildren(...own.map(([name, ms]) => {
+    const line = document.createElement('tr'), bar = document.createElement('i');
+    for (const words of [name, ms.toPrecision(3), '']) line.insertCell().textContent = words;
+    bar.style.width = 100 * ms / most + '%';
+    line.lastChild.append(bar);
+    return line;
+  }));
+}
+function worstPixel(row) {
+  const plot = $(`.sheet figure[data-i="${row}"] .probe`);
+  $('#probe').hidden = !plot;
+  if (plot) $('#probe img').src = plot.src;
 }
 
 // ---- which rows are shown, and in which order
