@@ -112,9 +112,13 @@ Result<void> read_costs(const ReportArguments& options, Question& question) {
 }
 
 std::string written(OutputFormat format, std::span<const Report> made) {
-    if (made.size() == 1) return format == OutputFormat::html ? as_html(made[0]) : in_format(format, made[0]);
+    if (made.size() == 1)
+        return format == OutputFormat::html  ? as_html(made[0])
+               : format == OutputFormat::svg ? as_svg(made[0])
+                                             : in_format(format, made[0]);
     const Pool pool = pooled(made);
     if (format == OutputFormat::html) return as_html(made, pool);
+    if (format == OutputFormat::svg) return as_svg(made, pool);
     if (format == OutputFormat::json) return as_json(made, pool);
     if (format == OutputFormat::csv) return as_csv(made, pool);
     const Page page = page_of(made, pool);
@@ -407,7 +411,7 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
     add_formats(app, options->output);
     add_output_file(app, options->output,
                     "write the report to this file instead of stdout, in the format of its ending: .html (a page with plots and "
-                    "pictures), .json, .csv, .md or .txt");
+                    "pictures), .svg (error against cost), .json, .csv, .md or .txt");
     return [options, &app] { return report(*options, app); };
 }
 

@@ -20,9 +20,9 @@ struct Ending {
     std::string_view text;
     OutputFormat format;
 };
-constexpr std::array endings{Ending{".json", OutputFormat::json}, Ending{".csv", OutputFormat::csv},
+constexpr std::array endings{Ending{".json", OutputFormat::json},   Ending{".csv", OutputFormat::csv},
                              Ending{".md", OutputFormat::markdown}, Ending{".txt", OutputFormat::text},
-                             Ending{".html", OutputFormat::html}};
+                             Ending{".html", OutputFormat::html},   Ending{".svg", OutputFormat::svg}};
 
 /// The format of a file's ending, or null.
 const Ending* ending_of(const std::filesystem::path& file) {
@@ -46,9 +46,10 @@ Result<void> check_ending(const TableOutput& output) {
     if (!output.file.has_extension()) return {};
     const std::string name = output.file.string();
     const Ending* ending = ending_of(output.file);
-    if (!ending || (ending->format == OutputFormat::html && !output.may_be_page))
+    const bool is_page = ending && (ending->format == OutputFormat::html || ending->format == OutputFormat::svg);
+    if (!ending || (is_page && !output.may_be_page))
         return fail(Fault::usage, "output.unknown_ending", "cannot write '{file}': its ending must be {endings}", name,
-                    output.may_be_page ? ".html, .json, .csv, .md or .txt" : ".json, .csv, .md or .txt");
+                    output.may_be_page ? ".html, .svg, .json, .csv, .md or .txt" : ".json, .csv, .md or .txt");
     const bool fits = !(output.json || output.csv) || ending->format == printed_format(output);
     if (!fits)
         return fail(Fault::usage, "output.ending_contradicts", "'{file}' does not end in {ending}, which {option} asks for", name,

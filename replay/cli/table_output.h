@@ -13,12 +13,12 @@ class App;
 
 namespace strata {
 
-enum class OutputFormat { text, json, csv, markdown, html };
+enum class OutputFormat { text, json, csv, markdown, html, svg };
 
 struct TableOutput {
     bool json = false, csv = false;
     std::filesystem::path file;  ///< empty: none
-    bool may_be_page = false;    ///< the verb makes pages, too: .html
+    bool may_be_page = false;    ///< the verb makes pages and plots, too: .html, .svg
 };
 
 /// --json and --csv.
@@ -39,12 +39,13 @@ Result<void> write_text(const TableOutput&, const std::string& text);
 /// The date of what is written, utc_date(): now, or what the environment's SOURCE_DATE_EPOCH says (seconds since 1970).
 std::string date_of_output();
 
-/// Not of pages, which a verb makes itself.
+/// Not of pages and plots, which a verb makes itself.
 template <typename Made>
 std::string in_format(OutputFormat format, const Made& made) {
     switch (format) {
         case OutputFormat::text:
         case OutputFormat::html:
+        case OutputFormat::svg:
             break;
         case OutputFormat::json:
             return as_json(made);

@@ -17,6 +17,7 @@ namespace strata {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -182,6 +183,23 @@ TEST(Page, OfSeveralFramesHasWhatEachRowIsOffOnEach) {
     browser.press('?');
     EXPECT_TRUE(is("document.querySelector('#keys').open"));
     EXPECT_THAT(browser.complaints(), testing::IsEmpty());
+}
+
+/// A file that stands alone: its own colors and ground, as many points as the page has.
+TEST(Page, ItsPlotIsAFile) {
+    ASSERT_EQ(strata("record interpenetrating_panes -o a.strata --size 32x18 --frames 2").code, 0);
+    for (const char* frames : {"0", "0-1"}) {
+        const std::string measure =
+            fmt::format("report a.strata --frames {} --techniques weighted,alpha_blend --repeats 1", frames);
+        ASSERT_EQ(strata(measure + " -o plot.svg").code, 0);
+        const std::string svg = file_text(folder() / "plot.svg");
+        EXPECT_THAT(svg, testing::StartsWith("<svg "));
+        EXPECT_THAT(svg, AllOf(HasSubstr("--bg: #fdfdfc"), HasSubstr("class=\"paper\""), HasSubstr(">transparency of ")));
+        std::size_t points = 0;
+        for (std::size_t at = svg.find("class=\"pt "); at != svg.npos; at = svg.find("class=\"pt ", at + 1)) ++points;
+        EXPECT_EQ(points, 2u);
+    }
+    EXPECT_THAT(strata("report --hard-cases -o plot.svg -v"), Refuses(2, "output.unknown_ending"));
 }
 
 TEST(Page, IsOfReportsAlone) {

@@ -138,7 +138,7 @@ public:
 
     std::string text() const {
         return filled(difference_html, {{"title", escaped(fmt::format("{} | {}", comparison_.a.name, comparison_.b.name))},
-                                        {"css", std::string(page_css)},
+                                        {"css", std::string(plot_css) + std::string(page_css)},
                                         {"own_css", std::string(difference_css)},
                                         {"provenance", provenance()},
                                         {"verdict", escaped(verdict_text())},

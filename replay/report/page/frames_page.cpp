@@ -28,17 +28,23 @@ public:
         if (!shown_ && !pool.rows.empty() && is_ranked(pool.rows.front())) shown_ = 0;
     }
 
+    std::string plot_file() const {
+        ScatterPlot made = plot();
+        made.title = fmt::format("{} of {}, {}", name(pool_.stage), frames_text(pool_), reports_.front().device.name);
+        return as_svg_file(made);
+    }
+
     std::string text() const {
         const std::map<std::string_view, std::string> parts = {
             {"title", escaped(fmt::format("{}: {}", frames_text(pool_), name(pool_.stage)))},
-            {"css", std::string(page_css)},
+            {"css", std::string(plot_css) + std::string(page_css)},
             {"own_css", std::string(frames_css)},
             {"provenance", provenance()},
             {"verdict", escaped(verdict())},
             {"notes", notes()},
             {"answer", answer()},
             {"command", command()},
-            {"plot", plot()},
+            {"plot", has_plot() ? as_svg(plot()) : ""},
             {"pooled_as", pooled_as()},
             {"scale", scale_html(pool_.error)},
             {"matrix", matrix()},
@@ -115,8 +121,10 @@ private:
 
     double scaled(double error) const { return pool_.error.is_of_white ? 100 * error : error; }
 
-    std::string plot() const {
-        if (pool_.time_unit.empty()) return "";
+    bool has_plot() const { return !plot().points.empty(); }
+
+    ScatterPlot plot() const {
+        if (pool_.time_unit.empty()) return {.y_title = "nothing was measured"};
         ScatterPlot made{.x_title = fmt::format("time, x {}", below_stage(pool_.time_unit)), .y_title = title_of(pool_.error)};
         if (pool_.error.is_of_white) made.y_floor = 100 * exact_below, made.strip_title = fmt::format("< {:g}", made.y_floor);
         if (pool_.question.error) made.most_y = scaled(*pool_.question.error);
@@ -131,7 +139,7 @@ private:
                                    .y = scaled(row.error),
                                    .is_emphasized = i == shown_});
         }
-        return made.points.empty() ? "" : as_svg(made);
+        return made;
     }
 
     std::string pooled_as() const {
@@ -223,5 +231,7 @@ private:
 }  // namespace
 
 std::string as_html(std::span<const Report> reports, const Pool& pool) { return FramesPage(reports, pool).text(); }
+
+std::string as_svg(std::span<const Report> reports, const Pool& pool) { return FramesPage(reports, pool).plot_file(); }
 
 }  // namespace strata

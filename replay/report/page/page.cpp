@@ -51,7 +51,7 @@ public:
     std::string text() const {
         const std::map<std::string_view, std::string> parts = {
             {"title", escaped(fmt::format("{}: {}", report_.capture_name, name(report_.stage)))},
-            {"css", std::string(page_css)},
+            {"css", std::string(plot_css) + std::string(page_css)},
             {"truth", report_.truth_picture.empty() ? "none" : fmt::format("url({})", png_uri(report_.truth_picture))},
             {"aspect", fmt::format("{} / {}", report_.width, report_.height)},
             {"provenance", provenance()},
@@ -86,6 +86,16 @@ public:
         if (!answer_.recommended)
             return fmt::format("No technique keeps the limits; {} is the nearest: {}", short_label(row), facts);
         return fmt::format("{} {}: {}", shown_ == baseline_of(report_) ? "Keep" : "Use", short_label(row), facts);
+    }
+
+    /// Of the error that ranks rows against what the answer rests on.
+    std::string plot_file() const {
+        const auto up = axes(Role::error), across = axes(Role::cost);
+        ScatterPlot made{.y_title = "nothing was measured"};
+        if (!up.empty() && !across.empty()) made = plot(up.front(), across.front());
+        made.title = fmt::format("{} of {} frame {}, {} \u00d7 {}, {}", name(report_.stage), report_.capture_name, report_.frame,
+                                 report_.width, report_.height, report_.device.name);
+        return as_svg_file(made);
     }
 
 private:
@@ -380,6 +390,8 @@ private:
 }  // namespace
 
 std::string as_html(const Report& report, std::size_t picture_bytes) { return HtmlPage(report, picture_bytes).text(); }
+
+std::string as_svg(const Report& report) { return HtmlPage(report, 0).plot_file(); }
 
 std::string verdict_of(const Report& report) { return HtmlPage(report, 0).verdict(); }
 

@@ -16,7 +16,11 @@ std::string as_html(const Report&, std::size_t picture_bytes = page_picture_byte
 /// Its heading: "Use weighted: 0.4 % of white, not seen, at 0.62 times the time of alpha_blend".
 std::string verdict_of(const Report&);
 
+/// The plot that its page begins with, as an SVG file.
+std::string as_svg(const Report&);
+
 /// Reports of several frames: the answer over all, which rows are how wrong on which frame, and the page of each.
 std::string as_html(std::span<const Report>, const Pool&);
+std::string as_svg(std::span<const Report>, const Pool&);
 
 }  // namespace strata

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "replay/markup_text.h"
+#include "replay/page_parts.h"
 #include "replay/plural.h"
 #include "replay/tables/table.h"
 
@@ -136,10 +137,15 @@ public:
         for (const ScatterPoint& point : plot.points) x_.reach(point.low_x, 1), x_.reach(point.high_x, 1);
     }
 
-    std::string svg() {
-        std::string text = fmt::format(R"(<svg class="plot" viewBox="0 0 {} {}" xmlns="http://www.w3.org/2000/svg" role="img" )"
+    /// `style`: CSS; empty where a page around it has it.
+    std::string svg(const std::string& style) {
+        std::string text = fmt::format(R"(<svg class="plot" viewBox="0 {} {} {}" xmlns="http://www.w3.org/2000/svg" role="img" )"
                                        R"(aria-label="{} against {}">)",
-                                       width, height, escaped(plot_.y_title), escaped(plot_.x_title));
+                                       -above(), width, height + above(), escaped(plot_.y_title), escaped(plot_.x_title));
+        if (!style.empty())
+            text += fmt::format(R"(<style>{}</style><rect class="paper" y="{}" width="{}" height="{}"/>)", style, -above(), width,
+                                height + above());
+        if (!plot_.title.empty()) text += text_at(8, -10, "start", "title", plot_.title);
         text += ground();
         text += axes();
         text += bars();  // keeps labels clear of what it draws
@@ -150,6 +156,8 @@ public:
 
 private:
     double bottom() const { return height - foot - strip; }
+    /// What a title takes.
+    double above() const { return plot_.title.empty() ? 0 : 32; }
     std::vector<double> values(double ScatterPoint::*member) const {
         std::vector<double> all;
         all.reserve(plot_.points.size());
@@ -247,7 +255,14 @@ private:
 
 }  // namespace
 
-std::string as_svg(const ScatterPlot& plot) { return Drawing(plot).svg(); }
+std::string as_svg(const ScatterPlot& plot) { return Drawing(plot).svg(""); }
+
+std::string as_svg_file(const ScatterPlot& plot) {
+    constexpr std::string_view own =
+        ".paper { fill: var(--bg) } text { font-family: system-ui, \"Segoe UI\", \"DejaVu Sans\", \"Liberation Sans\", Arial, "
+        "sans-serif }";
+    return Drawing(plot).svg(std::string(plot_css) + std::string(own));
+}
 
 std::string mark_path(std::size_t kind) {
     static constexpr std::array shapes = {"M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0z",

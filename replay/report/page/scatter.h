@@ -23,11 +23,14 @@ struct ScatterPlot {
     std::optional<double> most_x, most_y;  ///< limits: what keeps both has a ground of its own
     double y_floor = 0;                    ///< below it y says nothing: such points lie in the strip, too
     std::string strip_title = "0";         ///< of that strip
+    std::string title = {};                ///< above all; empty: none
 };
 
 /// Both axes are logarithmic. Points have class "pt"; those that no other beats in both
 /// figures are filled. Labels meet no point and no other label; a point without room for one has none, and is counted below.
 std::string as_svg(const ScatterPlot&);
+/// The same as a file of its own: with its colors, of light and dark viewers, and a ground.
+std::string as_svg_file(const ScatterPlot&);
 
 /// Shapes and colors of a kind: the drawing of a mark around 0, 0, about 10 wide, and its CSS class, "c3".
 std::string mark_path(std::size_t kind);
