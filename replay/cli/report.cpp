@@ -212,7 +212,8 @@ Result<void> report_hard_cases(const ReportArguments& options) {
     const StopAtSignal signal;
     return measure_hard_cases(options.open.device, *rows, progress_line(), signal.token()).and_then([&](auto& made) {
         made.date = date_of_output();
-        const auto done = write_text(options.output, in_format(file_format(options.output, OutputFormat::text), made));
+        const OutputFormat format = file_format(options.output, OutputFormat::text);
+        const auto done = write_text(options.output, format == OutputFormat::html ? as_html(made) : in_format(format, made));
         return done && !made.stopped.empty() ? Result<void>(fail(Fault::stopped, "session.stopped", "{progress}", made.stopped))
                                              : done;
     });
@@ -284,10 +285,13 @@ Result<void> check_answered(std::span<const Report> made) {
 
 Result<void> report(const ReportArguments& options, const CLI::App& app) {
     TableOutput output = options.output;
-    output.may_be_page = !options.hard_cases;
+    output.may_be_page = true;
     if (const auto fits = check_ending(output); !fits) return fits;
     const OutputFormat format = file_format(output, OutputFormat::text);
     if (options.hard_cases) {
+        if (format == OutputFormat::svg)
+            return fail(Fault::usage, "report.no_plot_of_hard_cases",
+                        "--hard-cases has no plot; write .html, .json, .csv, .md or .txt");
         const auto fits = check_not_given(app,
                                           {"--allow-partial", "--use", "--set", "--force", "--samples", "--stage", "--techniques",
                                            "--defaults", "--error", "--error-at", "--metric", "--within", "--memory", "--cost",

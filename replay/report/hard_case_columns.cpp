@@ -100,25 +100,6 @@ Sheet sheet_of_cells(std::span<const HardCell> cells) {
     return sheet_of<HardCell>(columns, cells, [](const HardCell&) { return RowName(); });
 }
 
-/// "ok", or the error with what it means: "!" a bug, "?" better than its record.
-std::string matrix_cell(const HardOutcome& outcome) {
-    using Verdict = HardOutcome::Verdict;
-    switch (outcome.verdict) {
-        case Verdict::holds:
-            return "ok";
-        case Verdict::not_applicable:
-            return "-";
-        case Verdict::documented:
-        case Verdict::fails:
-            return fmt::format("{:.2g}", outcome.error);
-        case Verdict::undocumented:
-            return fmt::format("{:.2g}!", outcome.error);
-        case Verdict::undeserved:
-            return "ok?";
-    }
-    return "";
-}
-
 /// Cases beside each other.
 Sheet matrix_of(const HardCaseReport& report, std::size_t first_case, std::size_t count) {
     std::vector<Column<HardCaseRow>> columns;
@@ -143,6 +124,24 @@ std::string share_lines(const HardCaseReport& report) {
 }
 
 }  // namespace
+
+std::string matrix_cell(const HardOutcome& outcome) {
+    using Verdict = HardOutcome::Verdict;
+    switch (outcome.verdict) {
+        case Verdict::holds:
+            return "ok";
+        case Verdict::not_applicable:
+            return "-";
+        case Verdict::documented:
+        case Verdict::fails:
+            return fmt::format("{:.2g}", outcome.error);
+        case Verdict::undocumented:
+            return fmt::format("{:.2g}!", outcome.error);
+        case Verdict::undeserved:
+            return "ok?";
+    }
+    return "";
+}
 
 Sheet sheet_of(const HardCaseReport& report) {
     std::vector<HardCell> all;

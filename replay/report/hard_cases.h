@@ -65,5 +65,7 @@ std::string as_text(const HardCaseReport&);
 std::string as_json(const HardCaseReport&);
 std::string as_csv(const HardCaseReport&);
 std::string_view name(HardOutcome::Verdict);
+/// "ok", or the error with what it means: "!" a bug, "?" better than its record.
+std::string matrix_cell(const HardOutcome&);
 
 }  // namespace strata

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "replay/images/image_io.h"
+#include "replay/report/page/page.h"
 #include "tests/7_tool/browser.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/file_text.h"
@@ -199,13 +200,34 @@ TEST(Page, ItsPlotIsAFile) {
         for (std::size_t at = svg.find("class=\"pt "); at != svg.npos; at = svg.find("class=\"pt ", at + 1)) ++points;
         EXPECT_EQ(points, 2u);
     }
-    EXPECT_THAT(strata("report --hard-cases -o plot.svg -v"), Refuses(2, "output.unknown_ending"));
+    EXPECT_THAT(strata("report --hard-cases -o plot.svg -v"), Refuses(2, "report.no_plot_of_hard_cases"));
+}
+
+/// Rows and cases as they are measured; a failure has the color of its size.
+TEST(Page, OfHardCasesIsTheirMatrix) {
+    const std::size_t cases = hard_cases().size();
+    HardCaseReport made{.rows = {{.technique = "transparency/weighted", .outcomes = std::vector<HardOutcome>(cases)},
+                                 {.technique = "transparency/moments", .outcomes = std::vector<HardOutcome>(cases)}}};
+    made.rows[0].outcomes[2] = {.verdict = HardOutcome::Verdict::documented, .error = .03, .reason = "adds <both>"};
+    EXPECT_THAT(as_html(made), AllOf(HasSubstr("1 of 2 rows hold every one of "), HasSubstr("every failure is as documented"),
+                                     HasSubstr("<td title=\"adds &lt;both&gt;\"><i class=\"k3\"></i>0.03</td>")));
+    made.rows[1].outcomes[0] = {.verdict = HardOutcome::Verdict::undocumented, .error = .2};
+    const std::string text = as_html(made);
+    EXPECT_THAT(text, AllOf(HasSubstr("0 of 2 rows hold"), HasSubstr("in 1 row a failure is not as documented"),
+                            HasSubstr("<i class=\"k5\"></i>0.2!</td>"), Not(HasSubstr("{{"))));
+    EXPECT_FALSE(asks_a_network(text));
+    std::ofstream(page(), std::ios::binary) << text;
+    if (!Browser::is_there()) return;
+    Browser browser(page());
+    EXPECT_EQ(browser.value("document.querySelectorAll('.rows tbody td').length").get<std::size_t>(), 2 * (cases + 1));
+    browser.press('t');
+    EXPECT_TRUE(browser.becomes_true("['dark', 'light'].includes(document.documentElement.dataset.theme)"));
+    EXPECT_THAT(browser.complaints(), testing::IsEmpty());
 }
 
 TEST(Page, IsOfReportsAlone) {
     ASSERT_EQ(strata("record three_panes -o a.strata --size 16x9").code, 0);
     EXPECT_THAT(strata("report a.strata --json -o page.html -v"), Refuses(2, "output.ending_contradicts"));
-    EXPECT_THAT(strata("report --hard-cases -o page.html -v"), Refuses(2, "output.unknown_ending"));
     EXPECT_FALSE(std::filesystem::exists(page()));
 }
 

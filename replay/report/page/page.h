@@ -6,6 +6,7 @@
 #include <string>
 
 #include "replay/markup_text.h"
+#include "replay/report/hard_cases.h"
 #include "replay/report/pooled.h"
 
 namespace strata {
@@ -22,5 +23,8 @@ std::string as_svg(const Report&);
 /// Reports of several frames: the answer over all, which rows are how wrong on which frame, and the page of each.
 std::string as_html(std::span<const Report>, const Pool&);
 std::string as_svg(std::span<const Report>, const Pool&);
+
+/// Techniques by cases, the size of failures in the classes of the scale.
+std::string as_html(const HardCaseReport&);
 
 }  // namespace strata
