@@ -9,17 +9,14 @@
 #include <nlohmann/json.hpp>
 
 #include "capture_format/frame/frame.h"
-#include "capture_format/frame/light.h"
 #include "capture_format/view.h"
 #include "captures/scenarios.h"
 #include "passes/frame_images.h"
 #include "passes/reference/difference.h"
 #include "passes/stage_input.h"
-#include "passes/stages.h"
 #include "passes/transparency/judge.h"
 #include "replay/report/flicker.h"
 #include "replay/report/hard_cases.h"
-#include "replay/report/picture_error.h"
 #include "replay/report/pooled.h"
 #include "replay/tables/table.h"
 #include "tests/support/errors.h"
@@ -313,73 +310,6 @@ TEST(Report, MeasuresSettingsAgainstTheTruthThatTheyApproximate) {
     EXPECT_THAT(as_csv(report), HasSubstr(",,\"two bounces\"\n"));
 }
 
-/// The truth takes the place of the stage's outputs: what is exact differs from it by float rounding, if at all.
-TEST(PictureErrors, AreThoseThatLaterStagesLeave) {
-    const auto session = scenario_session("interpenetrating_panes");
-    ReportRequest wanted{.error_at = ErrorAt::picture, .techniques = {"sorted_lists", "alpha_blend"}, .repeats = 1};
-    const Report report = must(make_report(*session, wanted));
-    ASSERT_EQ(report.rows.size(), 2u);
-    EXPECT_EQ(report.rows[0].technique, "transparency/sorted_lists");
-    const std::vector<Metric>& exact = report.rows[0].accuracy.technique_errors;
-    EXPECT_EQ(exact.front().name, "display rmse");
-    for (const Metric& metric : exact) EXPECT_LT(metric.value, 1e-3) << metric.name;
-    EXPECT_GT(report.rows[1].accuracy.technique_errors.front().value, .01);
-    EXPECT_GT(*report.rows[1].accuracy.flip, .01);
-    EXPECT_GT(report.rows[1].accuracy.touched.front().value, report.rows[1].accuracy.technique_errors.front().value);
-    EXPECT_LT(report.rows[1].accuracy.touched_share, 1);
-    EXPECT_EQ(nlohmann::json::parse(as_json(report))["error_at"], "picture");
-    wanted.stage = Stage::combine;
-    wanted.techniques = {};
-    EXPECT_THAT(make_report(*session, wanted), FailsWith("report.stage_makes_picture", Field("stage", "combine")));
-}
-
-/// A stage without light is judged by what its errors do to the picture, and says its own figures beside.
-TEST(PictureErrors, RankStagesThatMakeNoLight) {
-    const auto session = scenario_session("materials");
-    const Report surfaces = must(make_report(*session, {.stage = Stage::gbuffer, .techniques = {"compact"}, .repeats = 1}));
-    EXPECT_EQ(surfaces.error_at, ErrorAt::picture);
-    EXPECT_EQ(ranking_metric(surfaces.rows.at(0)).name, display_rmse);
-    EXPECT_EQ(surfaces.rows.at(0).accuracy.stage_errors.front().name, "normal angle rms");
-    EXPECT_EQ(nlohmann::json::parse(as_json(surfaces))["rows"][0]["stage_error"][0]["metric"], "normal angle rms");
-    EXPECT_THAT(as_csv(surfaces), HasSubstr(",gbuffer normal angle rms,"));
-    const ReportRequest asked{.error_at = ErrorAt::stage, .stage = Stage::gbuffer, .techniques = {"compact"}, .repeats = 1};
-    const Report of_stage = must(make_report(*session, asked));
-    EXPECT_EQ(of_stage.error_at, ErrorAt::stage);
-    EXPECT_EQ(ranking_metric(of_stage.rows.at(0)).value, surfaces.rows.at(0).accuracy.stage_errors.front().value);
-
-    const Report draws = must(make_report(*session, {.stage = Stage::culling, .techniques = {"frustum"}, .repeats = 1}));
-    EXPECT_EQ(draws.error_at, ErrorAt::stage);
-    EXPECT_THAT(as_text(draws), HasSubstr("\nerrors are of the stage, not of the picture: no image can take the place of what "
-                                          "culling gives: later stages read buffers of culling/frustum\n"));
-    for (const Stage stage : {Stage::lighting, Stage::combine}) {
-        const Report light = must(make_report(*session, {.stage = stage, .defaults_only = true, .repeats = 1}));
-        EXPECT_EQ(light.error_at, ErrorAt::stage) << info(stage).name;
-        EXPECT_EQ(light.no_picture, "");
-    }
-}
-
-/// A shadow that is missing is an error where the truth is dark, as in the picture without the lights that cast shadows: touched
-/// are all pixels that these lights reach.
-TEST(PictureErrors, OfShadowsAreOverAllPixelsThatTheirLightsReach) {
-    std::vector<Frame> frames = scenario_frames("sun_and_boxes");
-    frames[0].view.width = 96, frames[0].view.height = 54;
-    frames.resize(3, frames.front());
-    frames[1].sun.shadow.casts = false;
-    frames[2].sun.irradiance = glm::vec3(0);
-    for (const Frame& frame : frames) ASSERT_TRUE(frame.lights.empty());
-    const auto session = session_of(std::move(frames));
-    std::vector<ReferenceImage> pictures;
-    for (const std::size_t frame : {1u, 2u}) {
-        Request request{.outputs = {"display"}};
-        request.variant.frame = frame;
-        pictures.push_back(in_double(must(session->run(request)).images.at("display")));
-    }
-    std::size_t reached = 0;
-    for (std::size_t i = 0; i < pictures[0].texels.size(); ++i) reached += pictures[0].texels[i] != pictures[1].texels[i];
-    const Report report = must(make_report(*session, {.stage = Stage::shadows, .techniques = {"pcf"}, .repeats = 1}));
-    EXPECT_NEAR(report.rows.at(0).accuracy.touched_share, double(reached) / double(pictures[0].texels.size()), 1e-9);
-}
-
 /// Exposure chooses the unit that light is stored in. A report keeps a truth in the frame's unit and scales it back for every
 /// row.
 TEST(Report, CountsWhatAStageTouchesInAnyUnitOfLight) {
@@ -394,38 +324,6 @@ TEST(Report, CountsWhatAStageTouchesInAnyUnitOfLight) {
     }
     EXPECT_LT(shares[0], 1);
     EXPECT_THAT(shares, testing::Each(shares[0]));
-}
-
-/// The smoke's errors in the picture: a pixel that rounding may have otherwise is judged.
-TEST(PictureErrors, CountPixelsThatRoundingDecidesWithWhatItAllows) {
-    std::vector<Frame> frames = scenario_frames("smoke_grenade");
-    frames[0].view.width = 64, frames[0].view.height = 36;
-    const auto session = session_of(std::move(frames));
-    ReportRequest request{.techniques = {"alpha_blend"}, .repeats = 1};
-    const Report of_stage = must(make_report(*session, request));
-    request.error_at = ErrorAt::picture;
-    const Report of_picture = must(make_report(*session, request));
-    for (const Report* report : {&of_stage, &of_picture}) {
-        const Accuracy& accuracy = report->rows.at(0).accuracy;
-        EXPECT_GT(accuracy.undecided_share, 0);
-        EXPECT_EQ(accuracy.unjudged_share, 0);
-        ASSERT_TRUE(accuracy.undecided_bound);
-        EXPECT_EQ(accuracy.undecided_bound->name, report == &of_stage ? "relative rmse" : "display rmse");
-        EXPECT_LT(accuracy.undecided_bound->value, .01);
-        EXPECT_THAT(as_text(*report), HasSubstr("their error is the distance to what it allows, which hides at most"));
-        EXPECT_THAT(as_text(*report), Not(HasSubstr("left out of the errors")));
-    }
-}
-
-TEST(PictureErrors, OfPixelsThatRoundingLeavesOpenAreNotZeros) {
-    const auto session = scenario_session("three_panes");
-    ReferenceImage display(64, 36);
-    display.undecided.assign(display.texels.size(), true);
-    Accuracy accuracy{.technique_errors = {{"rmse", "radiance", 0}}, .flip = 0};
-    ASSERT_TRUE(judge_picture(*session, {}, {.display = display, .touched = display}, accuracy));
-    EXPECT_THAT(accuracy.not_supported, HasSubstr("no pixel can be judged: rounding decides"));
-    EXPECT_TRUE(accuracy.technique_errors.empty());
-    EXPECT_FALSE(accuracy.flip);
 }
 
 TEST(Report, HasNoImplementationErrorWhereItsModelDecidesNothing) {
