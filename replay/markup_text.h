@@ -19,7 +19,7 @@ std::string escaped(std::string_view);
 /// A PNG as a URI that holds it.
 std::string png_uri(std::span<const std::byte> png);
 
-/// The same of an SVG.
+/// An SVG as a URI that holds it.
 std::string svg_uri(std::string_view svg);
 
 /// A template with its {{places}} filled. Every place has a part.

@@ -85,7 +85,8 @@ void keep_steps_of_depth(const StageInput& input, ReferenceImage& edges) {
 ImageSet edges_truth(const StageInput& input) {
     const auto depth = input.before.find("depth_layers");
     if (depth == input.before.end() || depth->second.layers < 2) return {};
-    const ReferenceImage none(depth->second.width, depth->second.height, 1, glm::dvec4(0, 0, 0, 1));
+    ReferenceImage none(depth->second.width, depth->second.height, 1, glm::dvec4(0, 0, 0, 1));
+    none.channels = 1;
     ReferenceImage edges = none, steps = none;
     for (std::uint32_t y = 0; y < edges.height; ++y) {
         for (std::uint32_t x = 0; x < edges.width; ++x) {

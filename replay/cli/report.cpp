@@ -375,8 +375,8 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
         "answer which technique is fastest with at most this error, like 1%: of white (below .5 % it is not seen, 1 to "
         "2 % is seen when looked for, over 5 % is obvious); relative:3% is of radiance");
     app.add_option("--error-at", options->error_at,
-                   "measure errors of the stage's output, or of the picture that the later stages make of it; default: of "
-                   "the picture where the stage makes no radiance")
+                   "measure errors of the stage's output or of the final picture; default: picture, unless the stage makes "
+                   "radiance")
         ->check(one_of({"stage", "picture"}));
     app.add_option("--metric", options->metric,
                    "rank rows by the error of what a display shows of radiance (display, the default), or by that of radiance "

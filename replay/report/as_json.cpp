@@ -32,6 +32,7 @@ void add_parts(ordered_json& json, const Measurement& row, bool is_timed) {
     if (row.modeled && !row.modeled->missing.empty()) json["modeled_missing"] = row.modeled->missing;
     if (!is_timed) return;
     json["repeats_ms"] = row.repeats_ms;
+    json["steps"] = ordered_json::array();
     for (const StepTime& step : row.steps) json["steps"].push_back({{"name", step.name}, {"ms", step.ms.median}});
     if (row.time) json["baseline_repeats_ms"] = row.baseline_repeats_ms;
     json["counters"] = ordered_json::object();

@@ -9,6 +9,7 @@
 #include "replay/report/variants.h"
 #include "replay/report/warnings.h"
 #include "replay/session/choice_text.h"
+#include "replay/session/light_unit.h"
 #include "replay/tables/table.h"
 
 namespace strata {
@@ -140,9 +141,9 @@ std::string heading(const Report& report) {
         text += fmt::format("left out of the errors: {}, NaN in the truth and in the result of {}\n",
                             plural(measured->accuracy.not_numbers, of_picture ? "pixel" : "sample"), measured->technique);
     if (leaves_much(report))
-        text +=
-            fmt::format("touched: errors over the {:.3g} % of {} that the stage {}\n", 100 * measured->accuracy.touched_share,
-                        of_picture ? "pixels" : "samples", measured->accuracy.stage_errors.empty() ? "changes" : "can change");
+        text += fmt::format("touched: errors over the {:.3g} % of {} that the stage {}\n", 100 * measured->accuracy.touched_share,
+                            of_picture ? "pixels" : "samples",
+                            holds_radiance(info(report.stage).outputs.front()) ? "changes" : "can change");
     if (report.flicker)
         text += fmt::format("flicker: mean change of the error from frame to frame, {}: {} m ahead, {} degrees to the right\n",
                             plural(report.flicker->frames, "frame"), short_number(*report.flicker->dolly),
@@ -260,8 +261,8 @@ Page page_of(const Pool& pool) {
     std::string head = fmt::format("{} of {}: {}{}{}, geometric mean of times\n", name(pool.stage), frames_text(pool), mean,
                                    of_frames, mean.empty() || pool.frames == pool.captures ? "" : " of each");
     if (!pool.left_out.empty())
-        head +=
-            fmt::format("left out, because the stage changes fewer than {} pixels: {}\n", fewest_pixels, first_of(pool.left_out));
+        head += fmt::format("left out, because errors are of the stage alone or the stage changes fewer than {} pixels: {}\n",
+                            fewest_pixels, first_of(pool.left_out));
     return {head + "\n", sheet_of(pool),
             "\n" + legends(pool.rows) + best_rows(pool.rows, standings(pool), pool.error, pool.time_unit) + answer_text(pool)};
 }

@@ -26,8 +26,11 @@ Result<ReferenceImage> picture_from(Session& session, Request request, Stage sta
 /// Images of the shapes of the truth, all of one value.
 ImageSet plain_outputs(const ImageSet& truth, double value) {
     ImageSet plain;
-    for (const auto& [name, image] : truth)
-        plain.emplace(name, ReferenceImage(image.width, image.height, image.layers, glm::dvec4(value)));
+    for (const auto& [name, image] : truth) {
+        ReferenceImage made(image.width, image.height, image.layers, glm::dvec4(value));
+        made.channels = image.channels;
+        plain.emplace(name, std::move(made));
+    }
     return plain;
 }
 

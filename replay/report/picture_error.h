@@ -17,8 +17,8 @@ struct PictureTruth {
 /// Whether the picture is one of the stage's own outputs.
 bool makes_picture(Stage);
 
-/// Runs the request from the stage's truth, and from what its technique finds. Fails where the truth cannot take the place of the
-/// stage's outputs (Session::run_from), and for a stage that makes the picture itself.
+/// Runs the request from the stage's truth, and from others that tell what it can change. Fails where the truth cannot take the
+/// place of the stage's outputs (Session::run_from), and for a stage that makes the picture itself.
 Result<PictureTruth> picture_truth(Session&, const Request&, Stage, const ImageSet& truth);
 
 /// Runs the request and puts the errors of its picture in the place of those of the stage: Accuracy::technique_errors, flip and

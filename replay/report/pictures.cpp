@@ -21,6 +21,8 @@ namespace strata {
 namespace {
 
 constexpr const char* frame_picture = "display";
+// Up to so many rows each has the plot of its worst pixel; of more those that one looks at.
+constexpr std::size_t few_rows = 20;
 
 /// A picture as sRGB encodes it, 0 to 1; each pixel is the mean of its samples. What is not finite shows as black.
 struct ShownPicture {
@@ -58,7 +60,7 @@ RowPicture row_picture(const ShownPicture& row, const ShownPicture& truth) {
         }
         const double off = glm::distance(row.pixels[i], truth.pixels[i]);
         if (off <= worst) continue;
-        worst = off;
+        worst = made.worst_off = off;
         made.worst_x = std::uint32_t(i % row.width), made.worst_y = std::uint32_t(i / row.width);
     }
     made.png = encode_png(row.width, row.height, 4, rgba);
@@ -89,13 +91,14 @@ std::vector<bool> rows_looked_at(const Report& report) {
     return looked_at;
 }
 
-/// What a row makes of the light behind the fragments of a pixel; empty where it has none, and of other stages.
+/// The SVG of T(z) at the row's worst pixel; empty for other stages, for rows that show as the truth does, and where no fragment
+/// lies.
 Result<std::string> worst_pixel(Session& session, const ReportRequest& wanted, const Variant& row, const RowPicture& picture) {
-    if (wanted.stage != Stage::transparency) return std::string();
+    if (wanted.stage != Stage::transparency || picture.worst_off == 0) return std::string();
     const auto made = probe(session, wanted.base, {.x = picture.worst_x, .y = picture.worst_y},
                             {.variants = {label(row.technique->name, row.settings)}, .samples = 256});
     if (made) return as_svg(*made);
-    return made.error().fault == Fault::usage ? Result<std::string>(std::string()) : Result<std::string>(made.error());
+    return made.error().id == "probe.no_fragment" ? Result<std::string>(std::string()) : Result<std::string>(made.error());
 }
 
 /// Makes pictures of one stage of one frame.
@@ -143,7 +146,7 @@ Result<void> add_pictures(Session& session, const ReportRequest& wanted, std::sp
     if (!frame) return frame.error();
     const Pictures pictures(session, report, *frame);
     const auto truth = pictures.of_truth(wanted.base, wanted.stage, truths.all.front());
-    // Later stages read more of the pass than images, which no truth has: culling, shadow maps.
+    // Later stages read more of the pass than images, which no truth has: culling, shadow maps that lighting reads itself.
     if (!truth && truth.error().fault == Fault::usage) return {};
     if (!truth) return truth.error();
     report.truth_picture = png_of(*truth);
@@ -154,6 +157,7 @@ Result<void> add_pictures(Session& session, const ReportRequest& wanted, std::sp
         if (!row) return row.error();
         report.rows[i].picture = row_picture(*row, *truth);
         if (looked_at[i]) report.rows[i].picture->flip_png = flip_png(*row, *truth);
+        if (!looked_at[i] && report.rows.size() > few_rows) continue;
         auto svg = worst_pixel(session, wanted, all[i], *report.rows[i].picture);
         if (!svg) return svg.error();
         report.rows[i].picture->probe_svg = *std::move(svg);

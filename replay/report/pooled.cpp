@@ -26,6 +26,7 @@ struct Source {
     Standing asked;       ///< asked_standings()
     std::size_t capture;  ///< number
     std::string frame;    ///< PooledRow::worst_frame
+    std::size_t place;    ///< PooledRow::worst_report
 };
 
 /// The geometric mean of a figure over rows; nothing when one of them lacks it.
@@ -95,6 +96,7 @@ PooledRow pooled_row(std::span<const Source> rows, const RankingError& error) {
         .error = pooled_error(rows, error),
         .rms_error = rms_of(rows, error),
         .worst_error = ranking_value(worst),
+        .worst_report = worst.place,
         .worst_frame = worst.frame,
         .time = mean_of(rows, [](const Measurement& row) { return row.time ? std::optional(row.time->median) : std::nullopt; }),
         .bytes_per_pixel = bytes,
@@ -156,17 +158,20 @@ Pool pooled(std::span<const Report> reports) {
     bool one_unit = true;
     const std::vector<std::size_t> captures = captures_of(reports);
     const std::vector<std::string> names = frame_names(reports);
+    std::optional<std::size_t> first_counted;
     std::set<std::size_t> counted;
     for (std::size_t i = 0; i < reports.size(); ++i) {
         const Report& report = reports[i];
         pool.stage = report.stage, pool.question = report.question, pool.times_are = times_text(report);
         if (!report.skipped.empty() || !report.is_timed) continue;
         if (pool.without_modeled_time.empty()) pool.without_modeled_time = without_modeled_time(report);
-        if (changes_too_little(report)) {
+        const bool is_of_another_kind = first_counted && report.error_at != reports[*first_counted].error_at;
+        if (changes_too_little(report) || is_of_another_kind) {
             pool.left_out.push_back(names[i]);
             continue;
         }
         if (pool.frames == 0) pool.time_unit = report.time_unit;
+        if (!first_counted) first_counted = i;
         one_unit = one_unit && report.time_unit == pool.time_unit;
         ++pool.frames;
         counted.insert(captures[i]);
@@ -181,7 +186,7 @@ Pool pooled(std::span<const Report> reports) {
             };
             auto known = std::ranges::find_if(rows, same);
             if (known == rows.end()) known = rows.emplace(known);
-            known->push_back({&row, &report, asked[j], captures[i], names[i]});
+            known->push_back({&row, &report, asked[j], captures[i], names[i], i});
         }
     }
     pool.captures = counted.size();
@@ -194,18 +199,7 @@ Pool pooled(std::span<const Report> reports) {
     return pool;
 }
 
-std::vector<Standing> standings(const Pool& pool) {
-    std::vector<Standing> all;
-    for (const PooledRow& row : pool.rows) {
-        Standing standing{
-            .time = row.time.value_or(HUGE_VAL), .spread = row.time_spread, .bytes_per_pixel = std::round(row.bytes_per_pixel)};
-        if (row.frames == pool.frames && !row.has_other_truth) standing.error = row.error;
-        all.push_back(standing);
-    }
-    return all;
-}
-
-namespace {
+bool is_ranked(const Pool& pool, const PooledRow& row) { return row.frames == pool.frames && !row.has_other_truth; }
 
 std::optional<std::size_t> baseline_of(const Pool& pool) {
     const auto found = std::ranges::find_if(pool.rows, [&](const PooledRow& row) {
@@ -214,11 +208,24 @@ std::optional<std::size_t> baseline_of(const Pool& pool) {
     return found == pool.rows.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - pool.rows.begin()));
 }
 
+std::vector<Standing> standings(const Pool& pool) {
+    std::vector<Standing> all;
+    for (const PooledRow& row : pool.rows) {
+        Standing standing{
+            .time = row.time.value_or(HUGE_VAL), .spread = row.time_spread, .bytes_per_pixel = std::round(row.bytes_per_pixel)};
+        if (is_ranked(pool, row)) standing.error = row.error;
+        all.push_back(standing);
+    }
+    return all;
+}
+
+namespace {
+
 std::vector<Standing> asked_standings(const Pool& pool) {
     std::vector<Standing> all;
     for (const PooledRow& row : pool.rows) {
         all.push_back(row.asked);
-        if (row.frames < pool.frames || row.has_other_truth) all.back().error.reset();
+        if (!is_ranked(pool, row)) all.back().error.reset();
     }
     return all;
 }

@@ -19,6 +19,7 @@ struct PooledRow {
     double error = 0;
     std::optional<double> rms_error = {};  ///< over all pixels that the stage changes, of shares of white
     double worst_error = 0;                ///< of a frame
+    std::size_t worst_report = 0;          ///< its place among the reports
     std::string worst_frame;               ///< "a.strata", or "a.strata frame 3" where a capture has several
     std::optional<double> time;            ///< in the time unit, geometric mean; none where a frame has none
     double time_spread = 0;                ///< of that, from those of the frames
@@ -34,7 +35,7 @@ struct PooledRow {
 struct Pool {
     Stage stage = Stage::transparency;
     std::size_t captures = 0, frames = 0;  ///< whose frames need the stage and are changed by it
-    std::vector<std::string> left_out;     ///< frames of which the stage changes too few pixels for an error
+    std::vector<std::string> left_out;     ///< frames of which too few pixels change, or whose errors are not of the picture
     RankingError error;                    ///< what PooledRow::error is of
     std::string time_unit;                 ///< as in Report; empty when not all have the same
     Question question;                     ///< of the reports
@@ -53,8 +54,12 @@ double geometric_mean(std::span<const double>);
 /// "a.strata frame 3" for each, or without the frame where a capture has one.
 std::vector<std::string> frame_names(std::span<const Report>);
 
+/// Whether the row can do all frames, and none by another truth.
+bool is_ranked(const Pool&, const PooledRow&);
 /// Rows that are not ranked have no error.
 std::vector<Standing> standings(const Pool&);
+/// The row whose time is 1, if it can do all frames.
+std::optional<std::size_t> baseline_of(const Pool&);
 
 /// "3 captures", "4 frames", "6 frames of 2 captures".
 std::string frames_text(const Pool&);

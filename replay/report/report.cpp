@@ -260,7 +260,9 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
     if (report.is_timed) mark_fronts(report.rows);
     if (wanted.wants_pictures) {
         tell("pictures", 1);
-        if (const auto added = add_pictures(session, wanted, *all, *row_truths, report); !added) return added.error();
+        const auto added = add_pictures(session, wanted, *all, *row_truths, report);
+        if (!added && added.error().fault != Fault::stopped) return added.error();
+        if (!added && report.stopped.empty()) report.stopped = "stopped before all pictures were made";
     }
     std::ranges::stable_sort(report.rows, {}, [](const Measurement& row) {
         return std::tuple(!row.is_measured(), row.has_other_truth, row.is_measured() ? ranking_metric(row).value : 0);

@@ -66,6 +66,7 @@ struct ReportRequest {
 struct RowPicture {
     std::vector<std::byte> png;              ///< RGBA; what shows as the truth does is transparent
     std::uint32_t worst_x = 0, worst_y = 0;  ///< the pixel that is furthest from the truth's, as sRGB encodes both
+    double worst_off = 0;                    ///< by so much, a distance of colors; 0: no pixel differs
     std::vector<std::byte> flip_png;         ///< FLIP's map in colors of magma(): RGB; empty where a page does not show it
     std::string probe_svg;                   ///< the worst pixel's fragments and T(z) (probe.h); empty where there are none
 };
@@ -129,7 +130,7 @@ struct Report {
     std::string date = {};            ///< when it was made, utc_date(); the caller's
     std::vector<ReportTruth> truths;  ///< of its rows; the first is that of the first row
     ErrorAt error_at = ErrorAt::stage;
-    std::string no_picture = {};         ///< why errors are not of the picture, as nobody asked where they are to be measured
+    std::string no_picture = {};         ///< why errors are of the stage although the default is the picture; else empty
     Request base = {};                   ///< ReportRequest::base
     std::size_t frame = 0, repeats = 0;  ///< of the row with the most; each has its own in its spreads
     std::size_t least_repeats = 0;       ///< of the row with the fewest

@@ -89,7 +89,7 @@ Result<RowTruth> find_row_truth(Session& session, const ReportRequest& wanted, c
                 view.width, view.height, view.samples, name(wanted.stage));
 }
 
-/// Where errors are measured unless one asks: a stage without radiance is judged by what its errors do to the picture.
+/// The default of --error-at: a stage without radiance is judged by what its errors do to the picture.
 ErrorAt default_error_at(Stage stage) {
     const StageInfo& of = info(stage);
     const bool makes_light = holds_radiance(of.outputs.front()) || makes_picture(stage);

@@ -265,7 +265,7 @@ std::optional<Error> cannot_give(const Declaration& d, std::size_t place, const 
     }
     if (are_all_left)
         return fail(Fault::usage, "stage.only_left_outputs_are_read",
-                    "later stages read '{image}', of which no truth says anything", images_read.front());
+                    "later stages read '{image}', which the truth does not contain", images_read.front());
     return {};
 }
 

@@ -157,8 +157,8 @@ struct Footing {
 struct Accuracy {
     std::vector<Metric> technique_errors;  ///< from the stage's judge, or of the picture that later stages make
     std::vector<Metric> stage_errors;      ///< from the stage's judge, where technique_errors are of the picture
-    std::optional<double> flip;            ///< mean of FLIP against the truth, of a stage that makes radiance
-    std::vector<Metric> touched;           ///< the same over the samples that the truth changes, of a stage that makes radiance
+    std::optional<double> flip;            ///< mean of FLIP against the truth, of radiance or the picture
+    std::vector<Metric> touched;           ///< the same over what the stage changes, or can change, of radiance or the picture
     double touched_share = 1;              ///< of all samples
     std::optional<Footing> footing;        ///< of errors over what is touched
     std::size_t not_numbers = 0;           ///< texels that are NaN in the result and in the truth: left out of these errors

@@ -57,8 +57,9 @@ std::string whole_document() {
         "one. This file is written by a test from the same descriptions as the tables.\n\n";
     text +=
         section("strata report",
-                "A row for each technique and its settings. JSON also has `technique_error` and `touched_error` "
-                "(`metric`, `unit`, `value`), `counters`, the worst texel,\nand the times of the repeats: `repeats_ms` of the "
+                "A row for each technique and its settings. JSON also has `technique_error`, `touched_error` and `stage_error` "
+                "(`metric`, `unit`, `value`), `counters`, the worst texel,\n`steps` with their `ms`, and the times of the "
+                "repeats: `repeats_ms` of the "
                 "stage, `baseline_repeats_ms` of the baseline in the same repeats. In CSV the errors are columns by their\n"
                 "names.",
                 sheet_of(whole_report()));

@@ -5,6 +5,7 @@
 
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/light.h"
+#include "passes/frame_images.h"
 #include "passes/stages.h"
 #include "replay/report/picture_error.h"
 #include "replay/report/report.h"
@@ -82,6 +83,42 @@ TEST(PictureErrors, OfShadowsAreOverAllPixelsThatTheirLightsReach) {
     for (std::size_t i = 0; i < pictures[0].texels.size(); ++i) reached += pictures[0].texels[i] != pictures[1].texels[i];
     const Report report = must(make_report(*session, {.stage = Stage::shadows, .techniques = {"pcf"}, .repeats = 1}));
     EXPECT_NEAR(report.rows.at(0).accuracy.touched_share, double(reached) / double(pictures[0].texels.size()), 1e-9);
+}
+
+/// The picture with every pixel shaded once, and with every sample shaded: edges can change what differs between them.
+TEST(PictureErrors, OfEdgesAreOverThePixelsThatShadingPerSampleChanges) {
+    std::vector<Frame> frames = scenario_frames("corners");
+    frames[0].view.width = 64, frames[0].view.height = 36, frames[0].view.samples = 4;
+    const auto session = session_of(std::move(frames));
+    Request request{.outputs = {"edges", "display"}};
+    request.choices = chosen({"edges/all_samples"});
+    const auto every_sample = must(session->run(request));
+    const ReferenceImage marked = in_double(every_sample.images.at("edges"));
+    const ReferenceImage none(marked.width, marked.height, marked.layers);
+    const ReferenceImage a = in_double(every_sample.images.at("display")),
+                         b = in_double(must(session->run_from(request, Stage::edges, {{"edges", none}})).images.at("display"));
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < a.texels.size(); ++i) changed += a.texels[i] != b.texels[i];
+    const Report report = must(make_report(*session, {.stage = Stage::edges, .techniques = {"tolerant"}, .repeats = 1}));
+    EXPECT_GT(changed, 0u);
+    EXPECT_EQ(report.rows.at(0).accuracy.touched_share, double(changed) / double(a.texels.size()));
+}
+
+/// A stop while pictures are made loses no row.
+TEST(Report, KeepsItsRowsWhenItIsStoppedAtThePictures) {
+    const auto session = scenario_session("three_panes");
+    std::stop_source source;
+    session->stop_when(source.get_token());
+    const ReportRequest wanted{.techniques = {"weighted", "alpha_blend"},
+                               .repeats = 1,
+                               .wants_pictures = true,
+                               .on_row = [&](const Measurement&, std::size_t place, std::size_t of) {
+                                   if (place == of) source.request_stop();
+                               }};
+    const Report report = must(make_report(*session, wanted));
+    ASSERT_EQ(report.rows.size(), 2u);
+    EXPECT_TRUE(report.rows[1].is_measured());
+    EXPECT_EQ(report.stopped, "stopped before all pictures were made");
 }
 
 /// The smoke's errors in the picture: a pixel that rounding may have otherwise is judged.

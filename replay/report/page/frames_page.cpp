@@ -25,7 +25,7 @@ public:
         for (const PooledRow& row : pool.rows)
             if (!kinds_.contains(row.technique)) kinds_.emplace(row.technique, kinds_.size());
         shown_ = answer_.recommended ? answer_.recommended : answer_.nearest;
-        if (!shown_ && !pool.rows.empty() && is_ranked(pool.rows.front())) shown_ = 0;
+        if (!shown_ && !pool.rows.empty() && is_ranked(pool, pool.rows.front())) shown_ = 0;
     }
 
     std::string plot_file() const {
@@ -44,7 +44,7 @@ public:
             {"notes", notes()},
             {"answer", answer()},
             {"command", command()},
-            {"plot", has_plot() ? as_svg(plot()) : ""},
+            {"plot", as_svg(plot())},
             {"pooled_as", pooled_as()},
             {"scale", scale_html(pool_.error)},
             {"matrix", matrix()},
@@ -57,8 +57,6 @@ public:
     }
 
 private:
-    bool is_ranked(const PooledRow& row) const { return row.frames == pool_.frames && !row.has_other_truth; }
-
     std::string provenance() const {
         std::string text;
         for (const std::string& part : {plural(reports_.size(), "frame"), fmt::format("stage {}", name(pool_.stage)),
@@ -71,14 +69,17 @@ private:
         std::string text = error_words(pool_.error, row.error) + (pool_.captures > 1 ? ", the mean of captures" : "");
         if (pool_.captures == 1 && pool_.frames > 1) text += fmt::format(", on {}", row.worst_frame);
         const std::string unit = below_stage(pool_.time_unit);
-        if (!pool_.question.gpu.empty() && std::isfinite(row.asked.time))
-            text += fmt::format(", at {:.2f} \u00d7 the modeled time of {} on {}", row.asked.time, unit, pool_.question.gpu);
+        if (!pool_.question.gpu.empty() && std::isfinite(row.asked.ms))
+            text += fmt::format(", at most {} ms modeled for {}", short_number(row.asked.ms), pool_.question.gpu);
         else if (row.time && !unit.empty()) text += fmt::format(", at {:.2f} \u00d7 the time of {}", *row.time, unit);
         return text;
     }
 
     std::string verdict() const {
-        if (pool_.frames == 0 && pool_.left_out.empty()) return "No frame needs this stage";
+        if (pool_.frames == 0 && pool_.left_out.empty())
+            return std::ranges::all_of(reports_, [](const Report& report) { return !report.skipped.empty(); })
+                       ? "No frame needs this stage"
+                       : "No frame was measured completely";
         if (pool_.frames == 0)
             return fmt::format("No answer: {} changes fewer than {} pixels of each frame", name(pool_.stage), fewest_pixels);
         if (!shown_) return "No technique can do all of these frames";
@@ -89,8 +90,8 @@ private:
         if (!answer_.recommended)
             return fmt::format("No technique keeps the limits over {}; {} is the nearest: {}", frames_text(pool_),
                                short_label(row), facts(row));
-        const bool is_baseline = row.technique == pool_.time_unit && row.settings.empty();
-        return fmt::format("{} {} over {}: {}", is_baseline ? "Keep" : "Use", short_label(row), frames_text(pool_), facts(row));
+        return fmt::format("{} {} over {}: {}", shown_ == baseline_of(pool_) ? "Keep" : "Use", short_label(row),
+                           frames_text(pool_), facts(row));
     }
 
     std::string notes() const {
@@ -99,6 +100,9 @@ private:
             if (!note.empty()) text += fmt::format("<p class=\"warn\">{}</p>\n", escaped(note));
         };
         add(pool_.times_are);
+        for (std::size_t i = 0; i < reports_.size(); ++i)
+            if (!reports_[i].no_picture.empty())
+                add(fmt::format("{}: errors are of the stage, not of the picture: {}", names_[i], reports_[i].no_picture));
         for (std::size_t i = 0; i < reports_.size(); ++i)
             for (const Warning& warning : warnings_of(reports_[i])) add(fmt::format("{}: {}", names_[i], warning.text));
         add(reports_.back().stopped);
@@ -121,24 +125,39 @@ private:
 
     double scaled(double error) const { return pool_.error.is_of_white ? 100 * error : error; }
 
-    bool has_plot() const { return !plot().points.empty(); }
+    /// The figure across: what the answer rests on.
+    struct Across {
+        std::string title;
+        double (*of)(const PooledRow&);
+    };
+    Across across() const {
+        if (pool_.question.cost == &Standing::bytes_per_pixel)
+            return {"bytes per pixel", [](const PooledRow& row) { return row.bytes_per_pixel; }};
+        if (pool_.time_unit.empty() || !pool_.question.gpu.empty())
+            return {"ms of the slowest frame" + (pool_.question.gpu.empty() ? "" : ", modeled for " + pool_.question.gpu),
+                    [](const PooledRow& row) { return row.asked.ms; }};
+        return {fmt::format("time, x {}", below_stage(pool_.time_unit)),
+                [](const PooledRow& row) { return row.time.value_or(HUGE_VAL); }};
+    }
 
     ScatterPlot plot() const {
-        if (pool_.time_unit.empty()) return {.y_title = "nothing was measured"};
-        ScatterPlot made{.x_title = fmt::format("time, x {}", below_stage(pool_.time_unit)), .y_title = title_of(pool_.error)};
+        const Across cost = across();
+        ScatterPlot made{.x_title = cost.title, .y_title = title_of(pool_.error)};
         if (pool_.error.is_of_white) made.y_floor = 100 * exact_below, made.strip_title = fmt::format("< {:g}", made.y_floor);
         if (pool_.question.error) made.most_y = scaled(*pool_.question.error);
-        if (pool_.question.within && pool_.question.gpu.empty()) made.most_x = pool_.question.within;
+        const bool is_of_time = pool_.question.cost == &Standing::time && pool_.question.gpu.empty() && !pool_.time_unit.empty();
+        if (is_of_time) made.most_x = pool_.question.within;
         for (std::size_t i = 0; i < pool_.rows.size(); ++i) {
             const PooledRow& row = pool_.rows[i];
-            if (!row.time || !is_ranked(row)) continue;
+            if (!std::isfinite(cost.of(row)) || !is_ranked(pool_, row)) continue;
             made.points.push_back({.label = short_label(row),
                                    .place = i,
                                    .kind = kinds_.at(row.technique),
-                                   .x = *row.time,
+                                   .x = cost.of(row),
                                    .y = scaled(row.error),
                                    .is_emphasized = i == shown_});
         }
+        if (made.points.empty()) made.y_title = "no row can do all frames";
         return made;
     }
 
@@ -158,36 +177,37 @@ private:
             return fmt::format("<td title=\"{}\">{}</td>", escaped(why), word);
         };
         if (!report.skipped.empty()) return without("not needed", report.skipped);
+        if (!report.is_timed) return without("not timed", report.stopped);
         if (found == report.rows.end()) return without("not measured", "stopped before");
         if (!found->is_measured()) return without("cannot", found->accuracy.not_supported);
         if (changes_too_little(report)) return without("too few pixels", "left out of the pool");
         const double value = ranking_metric(*found).value;
         return fmt::format("<td{}><a href=\"#frame-{}\" data-frame=\"{}\" data-row=\"{}\">{}{}</a></td>",
-                           names_[frame] == row.worst_frame ? " class=\"worst\"" : "", frame, frame, found - report.rows.begin(),
+                           frame == row.worst_report ? " class=\"worst\"" : "", frame, frame, found - report.rows.begin(),
                            class_square(pool_.error, value), pool_.error.text(value));
     }
 
     std::string matrix() const {
-        std::string text = fmt::format(
-            "<table class=\"rows matrix\"><thead><tr><th>{} and settings</th><th>pooled</th>"
-            "<th>time, x {}</th>",
-            name(pool_.stage), escaped(below_stage(pool_.time_unit)));
+        const bool has_unit = !pool_.time_unit.empty();
+        std::string text =
+            fmt::format("<table class=\"rows matrix\"><thead><tr><th>{} and settings</th><th>pooled</th>", name(pool_.stage));
+        if (has_unit) text += fmt::format("<th>time, x {}</th>", escaped(below_stage(pool_.time_unit)));
         for (const std::string& frame : names_) text += fmt::format("<th>{}</th>", escaped(frame));
         text += "</tr></thead>\n<tbody>\n";
         for (const PooledRow& row : pool_.rows) {
             text += fmt::format("<tr><td>{}{}{}</td>", mark(row.technique), escaped(short_label(row)),
                                 row.on_front ? " <b title=\"nothing is both more accurate and faster\">*</b>" : "");
-            text += is_ranked(row)
+            text += is_ranked(pool_, row)
                         ? fmt::format("<td>{}{}</td>", class_square(pool_.error, row.error), pool_.error.text(row.error))
                         : std::string("<td>not ranked</td>");
-            text += fmt::format("<td>{}</td>", row.time ? fmt::format("{:.2f}", *row.time) : "");
+            if (has_unit) text += fmt::format("<td>{}</td>", row.time ? fmt::format("{:.2f}", *row.time) : "");
             for (std::size_t frame = 0; frame < reports_.size(); ++frame) text += cell(row, frame);
             text += "</tr>\n";
         }
         return text + "</tbody></table>\n";
     }
 
-    /// What no frame has a number for, with the reason of the first.
+    /// Rows that no frame can measure, each with its first reason.
     std::string left_out() const {
         std::map<std::string, std::string> reasons;
         for (const Report& report : reports_)
@@ -205,16 +225,15 @@ private:
                            mark_class(kind), mark_path(kind));
     }
 
-    /// Open is the frame on which the row of the answer is worst.
+    /// The frame on which the row of the answer is worst starts open.
     std::string frames() const {
-        const auto worst = shown_ ? std::ranges::find(names_, pool_.rows[*shown_].worst_frame) : names_.begin();
+        const std::size_t worst = shown_ ? pool_.rows[*shown_].worst_report : 0;
         std::string text;
         for (std::size_t i = 0; i < reports_.size(); ++i) {
-            const bool is_open = worst == names_.end() ? i == 0 : worst == names_.begin() + std::ptrdiff_t(i);
             text += fmt::format(
                 "<details class=\"frame\" id=\"frame-{}\"{}><summary><b>{}</b> {}</summary>\n"
                 "<iframe title=\"{}\" srcdoc=\"{}\"></iframe></details>\n",
-                i, is_open ? " open" : "", escaped(names_[i]), escaped(verdict_of(reports_[i])), escaped(names_[i]),
+                i, i == worst ? " open" : "", escaped(names_[i]), escaped(verdict_of(reports_[i])), escaped(names_[i]),
                 escaped(as_html(reports_[i], page_picture_bytes / reports_.size())));
         }
         return text;

@@ -88,7 +88,7 @@ public:
         return fmt::format("{} {}: {}", shown_ == baseline_of(report_) ? "Keep" : "Use", short_label(row), facts);
     }
 
-    /// Of the error that ranks rows against what the answer rests on.
+    /// The plot of the ranking error against what the answer rests on.
     std::string plot_file() const {
         const auto up = axes(Role::error), across = axes(Role::cost);
         ScatterPlot made{.y_title = "nothing was measured"};
@@ -113,21 +113,22 @@ private:
         });
         has_picture_.resize(report_.rows.size());
         std::size_t bytes = report_.truth_picture.size();
-        for (const std::size_t i : order) {
-            bytes += report_.rows[i].picture->png.size();
-            has_picture_[i] = bytes * 4 / 3 <= picture_bytes_;
-        }
+        const auto fits = [&](std::size_t more) {
+            const bool has_room = (bytes + more) * 4 / 3 <= picture_bytes_;
+            if (has_room) bytes += more;
+            return has_room;
+        };
+        for (const std::size_t i : order) has_picture_[i] = fits(report_.rows[i].picture->png.size());
         // Maps of the rows that one looks at, as far as there is room.
         has_flip_.resize(report_.rows.size());
         for (const std::size_t i : order) {
-            if (report_.rows[i].picture->flip_png.empty()) continue;
-            bytes += report_.rows[i].picture->flip_png.size();
-            has_flip_[i] = has_picture_[i] && bytes * 4 / 3 <= picture_bytes_;
+            const std::size_t map = report_.rows[i].picture->flip_png.size();
+            has_flip_[i] = has_picture_[i] && map > 0 && fits(map);
         }
         has_probe_.resize(report_.rows.size());
         for (const std::size_t i : order) {
-            bytes += report_.rows[i].picture->probe_svg.size();
-            has_probe_[i] = has_picture_[i] && !report_.rows[i].picture->probe_svg.empty() && bytes * 4 / 3 <= picture_bytes_;
+            const std::size_t plot = report_.rows[i].picture->probe_svg.size();
+            has_probe_[i] = has_picture_[i] && plot > 0 && fits(plot);
         }
     }
 
@@ -136,6 +137,8 @@ private:
         const std::string unit = below_stage(report_.time_unit);
         if (!report_.question.gpu.empty()) {
             const Standing& own = asked_[std::size_t(&row - report_.rows.data())];
+            if (own.error && !has_time_unit(report_.question, asked_, baseline_of(report_)))
+                return fmt::format("{} ms modeled for {}", short_number(own.ms), report_.question.gpu);
             return own.error ? fmt::format("{:.2f} \u00d7 the modeled time of {} on {}", own.time, unit, report_.question.gpu)
                              : "a time that no model knows";
         }
@@ -157,6 +160,9 @@ private:
         std::string text;
         const std::string times = times_text(report_);
         if (report_.is_timed && !times.empty()) text += fmt::format("<p class=\"warn\">{}</p>\n", escaped(times));
+        if (!report_.no_picture.empty())
+            text += fmt::format("<p class=\"warn\">errors are of the stage, not of the picture: {}</p>\n",
+                                escaped(report_.no_picture));
         for (const Warning& warning : warnings_of(report_))
             text += fmt::format("<p class=\"warn\" data-id=\"{}\">{}</p>\n", escaped(warning.id), escaped(warning.text));
         if (!report_.stopped.empty()) text += fmt::format("<p class=\"warn\">{}</p>\n", escaped(report_.stopped));
@@ -228,7 +234,9 @@ private:
             });
             if (!has_numbers) continue;
             // A plot begins with what the answer rests on.
-            found.insert(is.key == ranking_key || is.key == "modeled_kilocycles" ? found.begin() : found.end(), i);
+            const bool is_first = is.key == ranking_key || is.key == "modeled_kilocycles" ||
+                                  (is.key == "bytes_per_pixel" && report_.question.cost == &Standing::bytes_per_pixel);
+            found.insert(is_first ? found.begin() : found.end(), i);
         }
         return found;
     }

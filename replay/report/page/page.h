@@ -20,7 +20,7 @@ std::string verdict_of(const Report&);
 /// The plot that its page begins with, as an SVG file.
 std::string as_svg(const Report&);
 
-/// Reports of several frames: the answer over all, which rows are how wrong on which frame, and the page of each.
+/// Reports of several frames: the answer over all, the error of each row on each frame, and the page of each.
 std::string as_html(std::span<const Report>, const Pool&);
 std::string as_svg(std::span<const Report>, const Pool&);
 

@@ -156,7 +156,7 @@ public:
 
 private:
     double bottom() const { return height - foot - strip; }
-    /// What a title takes.
+    /// Height of the title, pixels.
     double above() const { return plot_.title.empty() ? 0 : 32; }
     std::vector<double> values(double ScatterPoint::*member) const {
         std::vector<double> all;

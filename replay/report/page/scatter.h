@@ -23,7 +23,7 @@ struct ScatterPlot {
     std::optional<double> most_x, most_y;  ///< limits: what keeps both has a ground of its own
     double y_floor = 0;                    ///< below it y says nothing: such points lie in the strip, too
     std::string strip_title = "0";         ///< of that strip
-    std::string title = {};                ///< above all; empty: none
+    std::string title = {};                ///< drawn above the plot; empty: none
 };
 
 /// Both axes are logarithmic. Points have class "pt"; those that no other beats in both
