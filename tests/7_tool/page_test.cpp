@@ -169,7 +169,7 @@ TEST(Page, OfSeveralFramesHasWhatEachRowIsOffOnEach) {
         const std::string frame_page = fmt::format("document.querySelectorAll('.frame iframe')[{}]", frame);
         EXPECT_TRUE(is(frame_page + ".contentDocument.querySelector('#name').textContent === 'weighted'"));
         EXPECT_TRUE(is(fmt::format("document.querySelectorAll('.frame')[{}].open", frame)));
-        EXPECT_TRUE(is(frame_page + ".clientHeight >= " + frame_page + ".contentDocument.body.offsetHeight"));
+        EXPECT_TRUE(is(fmt::format("{0}.clientHeight >= {0}.contentDocument.body.offsetHeight", frame_page)));
         EXPECT_TRUE(
             is("[..." + frame_page + ".contentDocument.querySelectorAll('.three img')].some(image => image.naturalWidth > 0)"));
     }
@@ -198,7 +198,7 @@ TEST(Page, ItsPlotIsAFile) {
         EXPECT_THAT(svg, testing::StartsWith("<svg "));
         EXPECT_THAT(svg, AllOf(HasSubstr("--bg: #fdfdfc"), HasSubstr("class=\"paper\""), HasSubstr(">transparency of ")));
         std::size_t points = 0;
-        for (std::size_t at = svg.find("class=\"pt "); at != svg.npos; at = svg.find("class=\"pt ", at + 1)) ++points;
+        for (std::size_t at = svg.find("class=\"pt "); at != std::string::npos; at = svg.find("class=\"pt ", at + 1)) ++points;
         EXPECT_EQ(points, 2u);
     }
     EXPECT_THAT(strata("report --hard-cases -o plot.svg -v"), Refuses(2, "report.no_plot_of_hard_cases"));

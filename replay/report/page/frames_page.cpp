@@ -14,6 +14,7 @@
 #include "replay/report/report_columns.h"
 #include "replay/report/variants.h"
 #include "replay/report/warnings.h"
+#include "replay/tables/table.h"
 
 namespace strata {
 namespace {

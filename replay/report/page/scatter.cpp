@@ -23,7 +23,8 @@ constexpr double text_size = 12, mark_radius = 6;
 double text_width(std::string_view text) {
     constexpr std::string_view narrow = "fijlrt.,:;'|()[]I ", wide = "mwMW%@";
     double width = 0;
-    for (const char letter : text) width += narrow.find(letter) != narrow.npos ? .42 : wide.find(letter) != wide.npos ? .98 : .65;
+    for (const char letter : text)
+        width += narrow.find(letter) != std::string_view::npos ? .42 : wide.find(letter) != std::string_view::npos ? .98 : .65;
     return width * text_size;
 }
 
