@@ -286,12 +286,10 @@ Result<void> check_answered(std::span<const Report> made) {
 Result<void> report(const ReportArguments& options, const CLI::App& app) {
     TableOutput output = options.output;
     output.may_be_page = true;
+    output.may_be_plot = !options.hard_cases;
     if (const auto fits = check_ending(output); !fits) return fits;
     const OutputFormat format = file_format(output, OutputFormat::text);
     if (options.hard_cases) {
-        if (format == OutputFormat::svg)
-            return fail(Fault::usage, "report.no_plot_of_hard_cases",
-                        "--hard-cases has no plot; write .html, .json, .csv, .md or .txt");
         const auto fits = check_not_given(app,
                                           {"--allow-partial", "--use", "--set", "--force", "--samples", "--stage", "--techniques",
                                            "--defaults", "--error", "--error-at", "--metric", "--within", "--memory", "--cost",

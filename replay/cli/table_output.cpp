@@ -46,10 +46,12 @@ Result<void> check_ending(const TableOutput& output) {
     if (!output.file.has_extension()) return {};
     const std::string name = output.file.string();
     const Ending* ending = ending_of(output.file);
-    const bool is_page = ending && (ending->format == OutputFormat::html || ending->format == OutputFormat::svg);
-    if (!ending || (is_page && !output.may_be_page))
-        return fail(Fault::usage, "output.unknown_ending", "cannot write '{file}': its ending must be {endings}", name,
-                    output.may_be_page ? ".html, .svg, .json, .csv, .md or .txt" : ".json, .csv, .md or .txt");
+    const bool is_other = ending && ((ending->format == OutputFormat::html && !output.may_be_page) ||
+                                     (ending->format == OutputFormat::svg && !output.may_be_plot));
+    if (!ending || is_other)
+        return fail(
+            Fault::usage, "output.unknown_ending", "cannot write '{file}': its ending must be {endings}", name,
+            fmt::format("{}{}.json, .csv, .md or .txt", output.may_be_page ? ".html, " : "", output.may_be_plot ? ".svg, " : ""));
     const bool fits = !(output.json || output.csv) || ending->format == printed_format(output);
     if (!fits)
         return fail(Fault::usage, "output.ending_contradicts", "'{file}' does not end in {ending}, which {option} asks for", name,

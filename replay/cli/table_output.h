@@ -18,7 +18,8 @@ enum class OutputFormat { text, json, csv, markdown, html, svg };
 struct TableOutput {
     bool json = false, csv = false;
     std::filesystem::path file;  ///< empty: none
-    bool may_be_page = false;    ///< the verb makes pages and plots, too: .html, .svg
+    bool may_be_page = false;    ///< the verb makes pages, too: .html
+    bool may_be_plot = false;    ///< and plots: .svg
 };
 
 /// --json and --csv.

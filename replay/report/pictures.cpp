@@ -30,12 +30,16 @@ struct ShownPicture {
     std::vector<glm::dvec3> pixels;
     std::vector<std::array<std::byte, 3>> bytes;
     ColorPlanes light;
+    std::vector<bool> undecided;  ///< by pixel: rounding decides a sample of it
 };
 
 ShownPicture shown_picture(const ReferenceImage& display) {
     ShownPicture picture{.width = display.width, .height = display.height, .light = color_planes(display)};
     const std::size_t pixels = std::size_t(display.width) * display.height;
     picture.pixels.resize(pixels, glm::dvec3(0));
+    picture.undecided.resize(pixels);
+    for (std::size_t i = 0; i < display.undecided.size(); ++i)
+        if (display.undecided[i]) picture.undecided[i % pixels] = true;
     for (std::size_t i = 0; i < display.texels.size(); ++i) picture.pixels[i % pixels] += glm::dvec3(display.texels[i]);
     for (glm::dvec3& pixel : picture.pixels) {
         pixel /= double(display.layers);
@@ -59,7 +63,7 @@ RowPicture row_picture(const ShownPicture& row, const ShownPicture& truth) {
             rgba[4 * i + 3] = std::byte{255};
         }
         const double off = glm::distance(row.pixels[i], truth.pixels[i]);
-        if (off <= worst) continue;
+        if (off <= worst || truth.undecided[i]) continue;
         worst = made.worst_off = off;
         made.worst_x = std::uint32_t(i % row.width), made.worst_y = std::uint32_t(i / row.width);
     }

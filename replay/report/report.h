@@ -65,7 +65,8 @@ struct ReportRequest {
 /// A row as a display shows it.
 struct RowPicture {
     std::vector<std::byte> png;              ///< RGBA; what shows as the truth does is transparent
-    std::uint32_t worst_x = 0, worst_y = 0;  ///< the pixel that is furthest from the truth's, as sRGB encodes both
+    std::uint32_t worst_x = 0, worst_y = 0;  ///< of those that rounding does not decide, the pixel that is furthest from the
+                                             ///< truth's, as sRGB encodes both
     double worst_off = 0;                    ///< by so much, a distance of colors; 0: no pixel differs
     std::vector<std::byte> flip_png;         ///< FLIP's map in colors of magma(): RGB; empty where a page does not show it
     std::string probe_svg;                   ///< the worst pixel's fragments and T(z) (probe.h); empty where there are none

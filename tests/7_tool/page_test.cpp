@@ -201,7 +201,7 @@ TEST(Page, ItsPlotIsAFile) {
         for (std::size_t at = svg.find("class=\"pt "); at != std::string::npos; at = svg.find("class=\"pt ", at + 1)) ++points;
         EXPECT_EQ(points, 2u);
     }
-    EXPECT_THAT(strata("report --hard-cases -o plot.svg -v"), Refuses(2, "report.no_plot_of_hard_cases"));
+    EXPECT_THAT(strata("report --hard-cases -o plot.svg -v"), Refuses(2, "output.unknown_ending"));
 }
 
 /// Rows and cases as they are measured; a failure has the color of its size.

@@ -104,6 +104,22 @@ TEST(PictureErrors, OfEdgesAreOverThePixelsThatShadingPerSampleChanges) {
     EXPECT_EQ(report.rows.at(0).accuracy.touched_share, double(changed) / double(a.texels.size()));
 }
 
+/// Silhouettes between pixels show one side or the other: that is no error, so the page does not point there.
+TEST(PictureErrors, TheWorstPixelIsNoneThatRoundingDecides) {
+    std::vector<Frame> frames = scenario_frames("courtyard");
+    frames[0].view.width = 160, frames[0].view.height = 90;
+    const auto session = session_of(std::move(frames));
+    const ImageSet truth = must(session->truth({}, Stage::gbuffer));
+    const ReferenceImage display = must(picture_truth(*session, {}, Stage::gbuffer, truth)).display;
+    ASSERT_GT(std::ranges::count(display.undecided, true), 0);
+    const ReportRequest wanted{.stage = Stage::gbuffer, .techniques = {"wide"}, .repeats = 1, .wants_pictures = true};
+    const Report report = must(make_report(*session, wanted));
+    const RowPicture& picture = report.rows.at(0).picture.value();
+    EXPECT_GT(picture.worst_off, 0);
+    EXPECT_LT(picture.worst_off, .02);
+    EXPECT_FALSE(display.undecided[display.index(picture.worst_x, picture.worst_y)]);
+}
+
 /// A stop while pictures are made loses no row.
 TEST(Report, KeepsItsRowsWhenItIsStoppedAtThePictures) {
     const auto session = scenario_session("three_panes");

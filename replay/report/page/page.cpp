@@ -217,7 +217,8 @@ private:
                 "</figcaption></figure>\n",
                 row, head, escaped(short_label(report_.rows[row])), escaped(error_words(report_.rows[row])));
         };
-        add(*shown_, answer_.recommended ? "recommended" : answer_.nearest ? "nearest" : "most accurate");
+        const bool is_asked = report_.question.is_asked();
+        add(*shown_, is_asked && answer_.recommended ? "recommended" : is_asked && answer_.nearest ? "nearest" : "most accurate");
         const auto baseline = baseline_of(report_);
         if (baseline && baseline != shown_ && report_.rows[*baseline].is_measured()) add(*baseline, "baseline");
         return text;
@@ -245,7 +246,8 @@ private:
         const Described& is = sheet_.columns[column];
         const std::string title = is.title.empty() ? is.key : is.title;
         const bool is_percent = is.kind == CellKind::share && title.find('%') == std::string::npos;
-        return title + (is_percent ? ", %" : is.unit.empty() ? "" : ", " + is.unit);
+        const bool has_unit = is.unit.empty() || title.ends_with(is.unit);
+        return title + (is_percent ? ", %" : has_unit ? "" : ", " + is.unit);
     }
 
     std::string axis_choices() const {
