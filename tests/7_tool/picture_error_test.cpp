@@ -107,7 +107,7 @@ TEST(PictureErrors, OfEdgesAreOverThePixelsThatShadingPerSampleChanges) {
 /// Silhouettes between pixels show one side or the other: that is no error, so the page does not point there.
 TEST(PictureErrors, TheWorstPixelIsNoneThatRoundingDecides) {
     std::vector<Frame> frames = scenario_frames("courtyard");
-    frames[0].view.width = 160, frames[0].view.height = 90;
+    frames[0].view.width = 240, frames[0].view.height = 135;
     const auto session = session_of(std::move(frames));
     const ImageSet truth = must(session->truth({}, Stage::gbuffer));
     const ReferenceImage display = must(picture_truth(*session, {}, Stage::gbuffer, truth)).display;
