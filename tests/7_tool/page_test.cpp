@@ -204,6 +204,33 @@ TEST(Page, ItsPlotIsAFile) {
     EXPECT_THAT(strata("report --hard-cases -o plot.svg -v"), Refuses(2, "output.unknown_ending"));
 }
 
+/// 40 settings on 4 frames, each with more pictures than a page has room for.
+TEST(Page, OfManyRowsOnSeveralFramesIsNoLargerThanOneMaySend) {
+    std::vector<Report> reports(
+        4, {.capture_name = "a.strata", .width = 640, .height = 360, .time_unit = "transparency/alpha_blend"});
+    for (std::size_t frame = 0; frame < reports.size(); ++frame) {
+        reports[frame].frame = frame;
+        reports[frame].truths.emplace_back();
+        reports[frame].truth_picture.resize(200'000);
+        for (int i = 0; i < 40; ++i) {
+            const std::vector<Metric> errors{{display_rmse, "of white", .001 * (1 + i)}};
+            Measurement row{.technique = "transparency/weighted", .settings = fmt::format("scale={}", 1 + .01 * i)};
+            row.accuracy = {.technique_errors = errors, .flip = .1, .touched = errors, .footing = Footing{.pixels = 5000}};
+            row.stage_ms = row.frame_ms = {.median = 1. + i, .repeats = 3};
+            row.time = Spread{.median = 1. + i, .low = .9 + i, .high = 1.1 + i, .repeats = 3};
+            row.bytes_per_pixel = 1. + i;
+            row.picture = RowPicture{.png = std::vector<std::byte>(100'000),
+                                     .flip_png = std::vector<std::byte>(100'000),
+                                     .probe_svg = std::string(40'000, ' ')};
+            reports[frame].rows.push_back(row);
+        }
+    }
+    const std::string text = as_html(reports, pooled(reports));
+    EXPECT_LT(text.size(), 5'000'000u);
+    EXPECT_GT(text.size(), 3'000'000u) << "what room there is has pictures";
+    EXPECT_THAT(text, HasSubstr("no picture: the page would be too large"));
+}
+
 /// Rows and cases as they are measured; a failure has the color of its size.
 TEST(Page, OfHardCasesIsTheirMatrix) {
     const std::size_t cases = hard_cases().size();

@@ -19,6 +19,19 @@
 namespace strata {
 namespace {
 
+constexpr std::size_t most_page_bytes = 4'800'000;
+
+/// In single quotes: pages have few of these.
+std::string in_srcdoc(std::string_view page) {
+    std::string text;
+    for (const char letter : page) {
+        if (letter == '&') text += "&amp;";
+        else if (letter == '\'') text += "&#39;";
+        else text += letter;
+    }
+    return text;
+}
+
 class FramesPage {
 public:
     FramesPage(std::span<const Report> reports, const Pool& pool)
@@ -226,6 +239,13 @@ private:
                            mark_class(kind), mark_path(kind));
     }
 
+    /// As large as all may be together; what the rest of it leaves is for pictures.
+    std::string frame_page(const Report& report) const {
+        const std::size_t most = most_page_bytes / reports_.size();
+        const std::size_t rest = in_srcdoc(as_html(report, {.picture_bytes = 0, .has_every_plot = false})).size();
+        return as_html(report, {.picture_bytes = most > rest ? most - rest : 0, .has_every_plot = false});
+    }
+
     /// The frame on which the row of the answer is worst starts open.
     std::string frames() const {
         const std::size_t worst = shown_ ? pool_.rows[*shown_].worst_report : 0;
@@ -233,9 +253,9 @@ private:
         for (std::size_t i = 0; i < reports_.size(); ++i) {
             text += fmt::format(
                 "<details class=\"frame\" id=\"frame-{}\"{}><summary><b>{}</b> {}</summary>\n"
-                "<iframe title=\"{}\" srcdoc=\"{}\"></iframe></details>\n",
+                "<iframe title=\"{}\" srcdoc='{}'></iframe></details>\n",
                 i, i == worst ? " open" : "", escaped(names_[i]), escaped(verdict_of(reports_[i])), escaped(names_[i]),
-                escaped(as_html(reports_[i], page_picture_bytes / reports_.size())));
+                in_srcdoc(frame_page(reports_[i])));
         }
         return text;
     }

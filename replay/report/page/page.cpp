@@ -37,12 +37,8 @@ std::string error_words(const Measurement& row) {
 /// The parts of a page; each fills a place of page.html.
 class HtmlPage {
 public:
-    HtmlPage(const Report& report, std::size_t picture_bytes)
-        : report_(report),
-          picture_bytes_(picture_bytes),
-          asked_(asked_standings(report)),
-          answer_(answer_of(report)),
-          sheet_(sheet_of(report)) {
+    HtmlPage(const Report& report, const PageRoom& room)
+        : report_(report), room_(room), asked_(asked_standings(report)), answer_(answer_of(report)), sheet_(sheet_of(report)) {
         for (const Measurement& row : report.rows)
             if (!kinds_.contains(row.technique)) kinds_.emplace(row.technique, kinds_.size());
         choose_pictures();
@@ -114,7 +110,7 @@ private:
         has_picture_.resize(report_.rows.size());
         std::size_t bytes = report_.truth_picture.size();
         const auto fits = [&](std::size_t more) {
-            const bool has_room = (bytes + more) * 4 / 3 <= picture_bytes_;
+            const bool has_room = (bytes + more) * 4 / 3 <= room_.picture_bytes;
             if (has_room) bytes += more;
             return has_room;
         };
@@ -266,10 +262,12 @@ private:
 
     std::string plots() const {
         std::string text;
-        for (const std::size_t up : axes(Role::error))
-            for (const std::size_t across : axes(Role::cost))
-                text += fmt::format("<div class=\"one\" data-up=\"{}\" data-across=\"{}\"{}>{}</div>\n", up, across,
-                                    text.empty() ? "" : " hidden", as_svg(plot(up, across)));
+        const auto all_up = axes(Role::error), all_across = axes(Role::cost);
+        for (const std::size_t up : all_up)
+            for (const std::size_t across : all_across)
+                if (room_.has_every_plot || up == all_up.front() || across == all_across.front())
+                    text += fmt::format("<div class=\"one\" data-up=\"{}\" data-across=\"{}\"{}>{}</div>\n", up, across,
+                                        text.empty() ? "" : " hidden", as_svg(plot(up, across)));
         return text.empty() ? "<p>nothing was measured</p>" : text;
     }
 
@@ -388,7 +386,7 @@ private:
     }
 
     const Report& report_;
-    std::size_t picture_bytes_;
+    PageRoom room_;
     std::vector<Standing> asked_;
     Answer answer_;
     Sheet sheet_;
@@ -399,10 +397,10 @@ private:
 
 }  // namespace
 
-std::string as_html(const Report& report, std::size_t picture_bytes) { return HtmlPage(report, picture_bytes).text(); }
+std::string as_html(const Report& report, const PageRoom& room) { return HtmlPage(report, room).text(); }
 
-std::string as_svg(const Report& report) { return HtmlPage(report, 0).plot_file(); }
+std::string as_svg(const Report& report) { return HtmlPage(report, {.picture_bytes = 0}).plot_file(); }
 
-std::string verdict_of(const Report& report) { return HtmlPage(report, 0).verdict(); }
+std::string verdict_of(const Report& report) { return HtmlPage(report, {.picture_bytes = 0}).verdict(); }
 
 }  // namespace strata

@@ -11,9 +11,15 @@
 
 namespace strata {
 
+/// Room in a file.
+struct PageRoom {
+    std::size_t picture_bytes = page_picture_bytes;
+    bool has_every_plot = true;  ///< false: the first figure up or the first across is in each
+};
+
 /// HTML. Of a report without pictures (ReportRequest::wants_pictures) it shows none; where there are more than
-/// `picture_bytes`, those of the answer and of rows on the front come first.
-std::string as_html(const Report&, std::size_t picture_bytes = page_picture_bytes);
+/// PageRoom::picture_bytes, those of the answer and of rows on the front come first.
+std::string as_html(const Report&, const PageRoom& = {});
 /// Its heading: "Use weighted: 0.4 % of white, not seen, at 0.62 times the time of alpha_blend".
 std::string verdict_of(const Report&);
 

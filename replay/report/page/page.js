@@ -159,9 +159,10 @@ function step(by) {
   const shown = all('.rows tbody tr').filter(line => !line.hidden).map(line => +line.dataset.i);
   if (shown.length) choose(shown[(shown.indexOf(state.row) + by + shown.length) % shown.length]);
 }
-function axes() {
-  const up = $('#up').value, across = $('#across').value;
-  all('#plots .one').forEach(plot => { plot.hidden = plot.dataset.up !== up || plot.dataset.across !== across; });
+function axes(event) {
+  const isChosen = plot => plot.dataset.up === $('#up').value && plot.dataset.across === $('#across').value;
+  if (!all('#plots .one').some(isChosen)) $(event.target.id === 'up' ? '#across' : '#up').selectedIndex = 0;  // a page inside of another lacks some
+  all('#plots .one').forEach(plot => { plot.hidden = !isChosen(plot); });
 }
 
 // ---- pointers
