@@ -134,7 +134,7 @@ std::string heading(const Report& report) {
     for (const ReportTruth& truth : report.truths) text += truth_text(report, truth);
     const bool of_picture = report.error_at == ErrorAt::picture;
     if (of_picture) text += "errors are of the picture: the later stages run from each row's outputs and from the truth\n";
-    if (!report.no_picture.empty()) text += fmt::format("errors are of the stage, not of the picture: {}\n", report.no_picture);
+    if (const std::string why = no_picture_text(report); !why.empty()) text += why + "\n";
     const Measurement* measured = first_measured(report);
     if (measured) text += undecided_text(measured->accuracy, of_picture ? "pixels" : "samples");
     if (measured && measured->accuracy.not_numbers > 0)
@@ -178,6 +178,10 @@ std::string times_text(const Report& report) {
     if (asked.cost != &Standing::time && !asked.within && !asked.within_ms) return {};
     if (!report.device.software) return fmt::format("times are of {}", report.device.name);
     return fmt::format("times are of {}, a CPU, and no GPU's: --cost cycles:GPU models one", report.device.driver);
+}
+
+std::string no_picture_text(const Report& report) {
+    return report.no_picture.empty() ? "" : "errors are of the stage, not of the picture: " + report.no_picture;
 }
 
 std::string without_modeled_time(const Report& report) {

@@ -175,6 +175,8 @@ Answer answer_of(const Report&);
 
 /// The device whose times an answer rests on, as a sentence; nothing where it rests on none.
 std::string times_text(const Report&);
+/// Report::no_picture as a sentence; empty where there is none.
+std::string no_picture_text(const Report&);
 /// The rows that the GPU of the question has no time for, and why; empty where there are none.
 std::string without_modeled_time(const Report&);
 /// The answer in words; none where nothing was asked.

@@ -9,6 +9,7 @@
 #include "replay/page_parts.h"
 #include "replay/plural.h"
 #include "replay/report/page/page.h"
+#include "replay/report/page/page_items.h"
 #include "replay/report/page/scale.h"
 #include "replay/report/page/scatter.h"
 #include "replay/report/report_columns.h"
@@ -35,9 +36,7 @@ std::string in_srcdoc(std::string_view page) {
 class FramesPage {
 public:
     FramesPage(std::span<const Report> reports, const Pool& pool)
-        : reports_(reports), pool_(pool), answer_(answer_of(pool)), names_(frame_names(reports)) {
-        for (const PooledRow& row : pool.rows)
-            if (!kinds_.contains(row.technique)) kinds_.emplace(row.technique, kinds_.size());
+        : reports_(reports), pool_(pool), answer_(answer_of(pool)), names_(frame_names(reports)), marks_(pool.rows) {
         shown_ = answer_.recommended ? answer_.recommended : answer_.nearest;
         if (!shown_ && !pool.rows.empty() && is_ranked(pool, pool.rows.front())) shown_ = 0;
     }
@@ -56,7 +55,7 @@ public:
             {"provenance", provenance()},
             {"verdict", escaped(verdict())},
             {"notes", notes()},
-            {"answer", answer()},
+            {"answer", answer_html(answer_lines(pool_), pool_.times_are)},
             {"command", command()},
             {"plot", as_svg(plot())},
             {"pooled_as", pooled_as()},
@@ -72,11 +71,8 @@ public:
 
 private:
     std::string provenance() const {
-        std::string text;
-        for (const std::string& part : {plural(reports_.size(), "frame"), fmt::format("stage {}", name(pool_.stage)),
-                                        plural(pool_.rows.size(), "row"), reports_.front().device.name, reports_.front().date})
-            if (!part.empty()) text += fmt::format("<span>{}</span>", escaped(part));
-        return text;
+        return provenance_html({plural(reports_.size(), "frame"), fmt::format("stage {}", name(pool_.stage)),
+                                plural(pool_.rows.size(), "row"), reports_.front().device.name, reports_.front().date});
     }
 
     std::string facts(const PooledRow& row) const {
@@ -109,32 +105,17 @@ private:
     }
 
     std::string notes() const {
-        std::string text;
-        const auto add = [&](const std::string& note) {
-            if (!note.empty()) text += fmt::format("<p class=\"warn\">{}</p>\n", escaped(note));
-        };
-        add(pool_.times_are);
-        for (std::size_t i = 0; i < reports_.size(); ++i)
-            if (!reports_[i].no_picture.empty())
-                add(fmt::format("{}: errors are of the stage, not of the picture: {}", names_[i], reports_[i].no_picture));
-        for (std::size_t i = 0; i < reports_.size(); ++i)
-            for (const Warning& warning : warnings_of(reports_[i])) add(fmt::format("{}: {}", names_[i], warning.text));
-        add(reports_.back().stopped);
-        return text;
-    }
-
-    std::string answer() const {
-        std::string text;
-        for (const AnswerLine& line : answer_lines(pool_))
-            if (line.head != replay_head && line.text != pool_.times_are)
-                text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(line.head), escaped(line.text));
-        return text.empty() ? "" : "<dl>\n" + text + "</dl>\n";
+        std::string text = note_html(pool_.times_are);
+        for (std::size_t i = 0; i < reports_.size(); ++i) {
+            if (const std::string note = no_picture_text(reports_[i]); !note.empty()) text += note_html(names_[i] + ": " + note);
+            for (const Warning& warning : warnings_of(reports_[i])) text += note_html(names_[i] + ": " + warning.text);
+        }
+        return text + note_html(reports_.back().stopped);
     }
 
     std::string command() const {
-        if (!shown_ || pool_.rows[*shown_].command.empty()) return "";
-        return fmt::format("<div class=\"cmd\"><code>{}</code><button class=\"copy js\">copy</button></div>\n",
-                           escaped(pool_.rows[*shown_].command));
+        const bool has_command = shown_ && !pool_.rows[*shown_].command.empty();
+        return has_command ? command_html(pool_.rows[*shown_].command) : "";
     }
 
     double scaled(double error) const { return pool_.error.is_of_white ? 100 * error : error; }
@@ -166,7 +147,7 @@ private:
             if (!std::isfinite(cost.of(row)) || !is_ranked(pool_, row)) continue;
             made.points.push_back({.label = short_label(row),
                                    .place = i,
-                                   .kind = kinds_.at(row.technique),
+                                   .kind = marks_.kind(row.technique),
                                    .x = cost.of(row),
                                    .y = scaled(row.error),
                                    .is_emphasized = i == shown_});
@@ -209,7 +190,7 @@ private:
         for (const std::string& frame : names_) text += fmt::format("<th>{}</th>", escaped(frame));
         text += "</tr></thead>\n<tbody>\n";
         for (const PooledRow& row : pool_.rows) {
-            text += fmt::format("<tr><td>{}{}{}</td>", mark(row.technique), escaped(short_label(row)),
+            text += fmt::format("<tr><td>{}{}{}</td>", marks_.html(row.technique), escaped(short_label(row)),
                                 row.on_front ? " <b title=\"nothing is both more accurate and faster\">*</b>" : "");
             text += is_ranked(pool_, row)
                         ? fmt::format("<td>{}{}</td>", class_square(pool_.error, row.error), pool_.error.text(row.error))
@@ -228,15 +209,7 @@ private:
             for (const Measurement& row : report.rows)
                 if (!row.accuracy.not_supported.empty()) reasons.emplace(short_label(row), row.accuracy.not_supported);
         for (const PooledRow& row : pool_.rows) reasons.erase(short_label(row));
-        std::string text;
-        for (const auto& [row, reason] : reasons) text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(row), escaped(reason));
-        return text.empty() ? "" : "<h3>Not in the table</h3><dl>\n" + text + "</dl>\n";
-    }
-
-    std::string mark(const std::string& technique) const {
-        const std::size_t kind = kinds_.at(technique);
-        return fmt::format("<svg class=\"mark\" viewBox=\"-7 -7 14 14\"><path class=\"{} full\" d=\"{}\"/></svg>",
-                           mark_class(kind), mark_path(kind));
+        return left_out_html(std::vector<std::pair<std::string, std::string>>(reasons.begin(), reasons.end()));
     }
 
     /// As large as all may be together; what the rest of it leaves is for pictures.
@@ -264,8 +237,8 @@ private:
     const Pool& pool_;
     Answer answer_;
     std::vector<std::string> names_;
-    std::map<std::string, std::size_t> kinds_;  ///< by technique
-    std::optional<std::size_t> shown_;          ///< the row of the heading
+    Marks marks_;
+    std::optional<std::size_t> shown_;  ///< the row of the heading
 };
 
 }  // namespace

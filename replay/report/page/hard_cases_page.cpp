@@ -7,6 +7,7 @@
 #include "replay/page_parts.h"
 #include "replay/plural.h"
 #include "replay/report/page/page.h"
+#include "replay/report/page/page_items.h"
 #include "replay/report/page/scale.h"
 #include "replay/report/variants.h"
 
@@ -56,17 +57,15 @@ std::string verdict(const HardCaseReport& report, std::size_t cases) {
 
 std::string as_html(const HardCaseReport& report) {
     const auto cases = hard_cases().first(report.rows.empty() ? 0 : report.rows.front().outcomes.size());
-    std::string provenance, questions;
-    for (const std::string& part : {report.device.name, plural(cases.size(), "case"), report.date})
-        if (!part.empty()) provenance += fmt::format("<span>{}</span>", escaped(part));
+    std::string questions;
     for (const HardCase& one : cases)
         questions +=
             fmt::format("<dt>{}</dt><dd>{} (holds up to {:.2g})</dd>\n", escaped(one.name), escaped(one.question), one.tolerance);
     const std::map<std::string_view, std::string> parts = {
         {"css", std::string(plot_css) + std::string(page_css)},
-        {"provenance", provenance},
+        {"provenance", provenance_html({report.device.name, plural(cases.size(), "case"), report.date})},
         {"verdict", escaped(verdict(report, cases.size()))},
-        {"notes", report.stopped.empty() ? "" : fmt::format("<p class=\"warn\">{}</p>\n", escaped(report.stopped))},
+        {"notes", note_html(report.stopped)},
         {"scale", scale_html(of_white)},
         {"matrix", matrix(report, cases)},
         {"cases", questions},

@@ -11,6 +11,7 @@
 #include "replay/markup_text.h"
 #include "replay/page_parts.h"
 #include "replay/plural.h"
+#include "replay/report/page/page_items.h"
 #include "replay/report/page/scale.h"
 #include "replay/report/page/scatter.h"
 #include "replay/report/report_columns.h"
@@ -38,9 +39,12 @@ std::string error_words(const Measurement& row) {
 class HtmlPage {
 public:
     HtmlPage(const Report& report, const PageRoom& room)
-        : report_(report), room_(room), asked_(asked_standings(report)), answer_(answer_of(report)), sheet_(sheet_of(report)) {
-        for (const Measurement& row : report.rows)
-            if (!kinds_.contains(row.technique)) kinds_.emplace(row.technique, kinds_.size());
+        : report_(report),
+          room_(room),
+          asked_(asked_standings(report)),
+          answer_(answer_of(report)),
+          sheet_(sheet_of(report)),
+          marks_(report.rows) {
         choose_pictures();
     }
 
@@ -53,8 +57,8 @@ public:
             {"provenance", provenance()},
             {"verdict", escaped(verdict())},
             {"notes", notes()},
-            {"answer", answer()},
-            {"command", shown_ ? command(report_.rows[*shown_]) : ""},
+            {"answer", answer_html(answer_lines(report_), times_text(report_))},
+            {"command", shown_ ? command_html(command_of(report_, report_.rows[*shown_])) : ""},
             {"three", three()},
             {"scale", scale_html(ranking_error(report_))},
             {"axes", axis_choices()},
@@ -143,42 +147,16 @@ private:
     }
 
     std::string provenance() const {
-        std::string text;
-        for (const std::string& part :
-             {fmt::format("{}, frame {}", report_.capture_name, report_.frame),
-              fmt::format("{} \u00d7 {}, {} per pixel", report_.width, report_.height, plural(report_.samples, "sample")),
-              fmt::format("stage {}", name(report_.stage)), plural(report_.rows.size(), "row"), report_.date})
-            if (!part.empty()) text += fmt::format("<span>{}</span>", escaped(part));
-        return text;
+        return provenance_html(
+            {fmt::format("{}, frame {}", report_.capture_name, report_.frame),
+             fmt::format("{} \u00d7 {}, {} per pixel", report_.width, report_.height, plural(report_.samples, "sample")),
+             fmt::format("stage {}", name(report_.stage)), plural(report_.rows.size(), "row"), report_.date});
     }
 
     std::string notes() const {
-        std::string text;
-        const std::string times = times_text(report_);
-        if (report_.is_timed && !times.empty()) text += fmt::format("<p class=\"warn\">{}</p>\n", escaped(times));
-        if (!report_.no_picture.empty())
-            text += fmt::format("<p class=\"warn\">errors are of the stage, not of the picture: {}</p>\n",
-                                escaped(report_.no_picture));
-        for (const Warning& warning : warnings_of(report_))
-            text += fmt::format("<p class=\"warn\" data-id=\"{}\">{}</p>\n", escaped(warning.id), escaped(warning.text));
-        if (!report_.stopped.empty()) text += fmt::format("<p class=\"warn\">{}</p>\n", escaped(report_.stopped));
-        return text;
-    }
-
-    /// Its last line, a command, has a place of its own, and so has the one on the times.
-    std::string answer() const {
-        std::string text;
-        const std::string times = times_text(report_);
-        for (const AnswerLine& line : answer_lines(report_)) {
-            if (line.head == replay_head || line.text == times) continue;
-            text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(line.head), escaped(line.text));
-        }
-        return text.empty() ? "" : "<dl>\n" + text + "</dl>\n";
-    }
-
-    std::string command(const Measurement& row) const {
-        return fmt::format("<div class=\"cmd\"><code>{}</code><button class=\"copy js\">copy</button></div>\n",
-                           escaped(command_of(report_, row)));
+        std::string text = (report_.is_timed ? note_html(times_text(report_)) : "") + note_html(no_picture_text(report_));
+        for (const Warning& warning : warnings_of(report_)) text += note_html(warning.text, warning.id);
+        return text + note_html(report_.stopped);
     }
 
     std::string picture(std::size_t row) const {
@@ -283,7 +261,7 @@ private:
             if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y)) continue;
             ScatterPoint point{.label = short_label(report_.rows[i]),
                                .place = i,
-                               .kind = kinds_.at(report_.rows[i].technique),
+                               .kind = marks_.kind(report_.rows[i].technique),
                                .x = scaled(across, *x),
                                .y = scaled(up, *y),
                                .is_emphasized = i == shown_};
@@ -295,17 +273,11 @@ private:
         return made;
     }
 
-    std::string mark(const std::string& technique) const {
-        const std::size_t kind = kinds_.at(technique);
-        return fmt::format("<svg class=\"mark\" viewBox=\"-7 -7 14 14\"><path class=\"{} full\" d=\"{}\"/></svg>",
-                           mark_class(kind), mark_path(kind));
-    }
-
     std::string techniques() const {
         std::string text;
-        for (const auto& [technique, kind] : kinds_)
+        for (const auto& [technique, kind] : marks_.kinds())
             text += fmt::format("<button class=\"technique\" aria-pressed=\"true\" data-t=\"{}\">{}{}</button>\n",
-                                escaped(technique), mark(technique), escaped(below_stage(technique)));
+                                escaped(technique), marks_.html(technique), escaped(below_stage(technique)));
         return text;
     }
 
@@ -319,7 +291,7 @@ private:
         text += "</tr></thead>\n<tbody>\n";
         for (std::size_t i = 0; i < sheet_.rows.size(); ++i) {
             const Sheet::Row& row = sheet_.rows[i];
-            text += fmt::format("<tr data-i=\"{}\" tabindex=\"0\"><td>{}{}{}</td>", i, mark(report_.rows[i].technique),
+            text += fmt::format("<tr data-i=\"{}\" tabindex=\"0\"><td>{}{}{}</td>", i, marks_.html(report_.rows[i].technique),
                                 escaped(row.name.label),
                                 report_.rows[i].on_front ? " <b title=\"nothing is both more accurate and faster\">*</b>" : "");
             if (!row.name.instead.empty()) {
@@ -347,17 +319,17 @@ private:
         for (std::size_t i = 0; i < report_.rows.size(); ++i)
             if (report_.rows[i].picture)
                 text += fmt::format("<figure data-i=\"{}\">{}{}{}<figcaption>{}<b>{}</b><br>{}</figcaption></figure>\n", i,
-                                    picture(i), flip(i), worst_pixel(i), mark(report_.rows[i].technique),
+                                    picture(i), flip(i), worst_pixel(i), marks_.html(report_.rows[i].technique),
                                     escaped(short_label(report_.rows[i])), escaped(error_words(report_.rows[i])));
         return text;
     }
 
     std::string left_out() const {
-        std::string text;
+        std::vector<std::pair<std::string, std::string>> reasons;
         for (const Measurement& row : report_.rows)
             if (!row.is_measured() && !row.accuracy.not_supported.empty())
-                text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(short_label(row)), escaped(row.accuracy.not_supported));
-        return text.empty() ? "" : "<h3>Not in the table</h3><dl>\n" + text + "</dl>\n";
+                reasons.emplace_back(short_label(row), row.accuracy.not_supported);
+        return left_out_html(reasons);
     }
 
     /// The heading of the text, line by line, and what each row counted.
@@ -390,7 +362,7 @@ private:
     std::vector<Standing> asked_;
     Answer answer_;
     Sheet sheet_;
-    std::map<std::string, std::size_t> kinds_;              ///< by technique
+    Marks marks_;
     std::optional<std::size_t> shown_;                      ///< the row that the page opens on
     std::vector<bool> has_picture_, has_flip_, has_probe_;  ///< by row
 };

@@ -258,12 +258,7 @@ private:
 
 std::string as_svg(const ScatterPlot& plot) { return Drawing(plot).svg(""); }
 
-std::string as_svg_file(const ScatterPlot& plot) {
-    constexpr std::string_view own =
-        ".paper { fill: var(--bg) } text { font-family: system-ui, \"Segoe UI\", \"DejaVu Sans\", \"Liberation Sans\", Arial, "
-        "sans-serif }";
-    return Drawing(plot).svg(std::string(plot_css) + std::string(own));
-}
+std::string as_svg_file(const ScatterPlot& plot) { return Drawing(plot).svg(std::string(plot_css)); }
 
 std::string mark_path(std::size_t kind) {
     static constexpr std::array shapes = {"M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0z",
