@@ -279,10 +279,10 @@ std::uint32_t FragmentLists::deepest() const {
 }
 
 struct FragmentRows::Scene {
-    Scene(const Frame& f, const ReferenceImage& d, LightAround around)
+    Scene(const Frame& f, const ReferenceImage& d, LightAround around, std::span<const std::uint32_t> draws)
         : lit(f, std::move(around)),
           depth(d),
-          raster(f, transparent_draws(f)),
+          raster(f, draws.empty() ? transparent_draws(f) : std::vector(draws.begin(), draws.end())),
           has_interfaces(frame_features(f).has(Feature::interface_layers)) {}
 
     LitFrame lit;
@@ -293,8 +293,9 @@ struct FragmentRows::Scene {
     mutable oneapi::tbb::enumerable_thread_specific<FoundRow> found = {};
 };
 
-FragmentRows::FragmentRows(const Frame& frame, const ReferenceImage& depth, LightAround around)
-    : scene_(std::make_unique<const Scene>(frame, depth, std::move(around))) {}
+FragmentRows::FragmentRows(const Frame& frame, const ReferenceImage& depth, LightAround around,
+                           std::span<const std::uint32_t> draws)
+    : scene_(std::make_unique<const Scene>(frame, depth, std::move(around), draws)) {}
 FragmentRows::FragmentRows(FragmentRows&&) noexcept = default;
 FragmentRows::~FragmentRows() = default;
 
@@ -349,9 +350,10 @@ bool order_is_undecided(const Fragment& nearer, const Fragment& farther) {
     return !commute && gap > 0 && gap <= std::abs(farther.depth) * depth_rounding;
 }
 
-FragmentLists transparent_fragments(const Frame& frame, const ReferenceImage& depth, PixelRows rows, LightAround around) {
+FragmentLists transparent_fragments(const Frame& frame, const ReferenceImage& depth, PixelRows rows, LightAround around,
+                                    std::span<const std::uint32_t> draws) {
     FragmentLists lists(frame.view.width, frame.view.height, frame.view.samples);
-    const FragmentRows made(frame, depth, std::move(around));
+    const FragmentRows made(frame, depth, std::move(around), draws);
     const std::uint32_t end = std::min(rows.end, frame.view.height);
     oneapi::tbb::enumerable_thread_specific<std::vector<const Fragment*>> sorted;
     oneapi::tbb::parallel_for(std::min(rows.begin, end), end, [&](std::uint32_t y) {

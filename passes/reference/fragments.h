@@ -130,7 +130,7 @@ struct FragmentRow {
 class FragmentRows {
 public:
     /// Frame and depth must outlive it. Device depth as for transparent_fragments().
-    FragmentRows(const Frame&, const ReferenceImage& depth, LightAround = {});
+    FragmentRows(const Frame&, const ReferenceImage& depth, LightAround = {}, std::span<const std::uint32_t> draws = {});
     FragmentRows(FragmentRows&&) noexcept;
     ~FragmentRows();
 
@@ -160,7 +160,8 @@ public:
     void scale_light(double factor);
 
 private:
-    friend FragmentLists transparent_fragments(const Frame&, const ReferenceImage&, PixelRows, LightAround);
+    friend FragmentLists transparent_fragments(const Frame&, const ReferenceImage&, PixelRows, LightAround,
+                                               std::span<const std::uint32_t>);
     std::uint32_t width_, height_, samples_;
     std::vector<FragmentRow> rows_;
 };
@@ -172,7 +173,8 @@ bool order_is_undecided(const Fragment& nearer, const Fragment& farther);
 /// Fragments in front of `depth` (device depth per sample, reversed: layer = sample), in submission order, dropped and
 /// sanitized as docs/algorithms/transparency.md 0.2 says, shaded at the sample. Undecided: coverage, the depth test, or the order
 /// of two that do not commute hangs on float rounding.
-/// Lists of other rows than those given stay empty.
-FragmentLists transparent_fragments(const Frame&, const ReferenceImage& depth, PixelRows = {}, LightAround = {});
+/// Lists of other rows than those given stay empty. `draws`: of these alone, in this order; empty: of transparent_draws().
+FragmentLists transparent_fragments(const Frame&, const ReferenceImage& depth, PixelRows = {}, LightAround = {},
+                                    std::span<const std::uint32_t> draws = {});
 
 }  // namespace strata

@@ -21,19 +21,14 @@ namespace {
 /// Rows that a thread blends one after the other: neighbors share what a model keeps of a row.
 constexpr std::uint32_t rows_in_turn = 8;
 
-/// The frame with one transparent object and no other draws; the particles of an emitter far to near.
-void keep_only(Frame& frame, const Frame& whole, std::uint32_t index) {
-    frame.draws.clear();
-    frame.emitters.clear();
-    if (index < whole.draws.size()) {
-        frame.draws.push_back(whole.draws[index]);
-        return;
-    }
-    const Emitter& emitter = whole.emitters[index - whole.draws.size()];
-    frame.emitters.push_back(emitter);
-    frame.emitters[0].particles.clear();
-    for (const std::uint32_t particle : painters_order(whole, emitter))
-        frame.emitters[0].particles.push_back(emitter.particles[particle]);
+/// Particles far to near. What else the frame has stays: light is measured by all of it.
+void sort_particles(Frame& frame, const Frame& whole, std::uint32_t object) {
+    if (object < whole.draws.size()) return;
+    const std::size_t place = object - whole.draws.size();
+    const Emitter& emitter = whole.emitters[place];
+    std::vector<Particle>& sorted = frame.emitters[place].particles;
+    sorted.clear();
+    for (const std::uint32_t particle : painters_order(whole, emitter)) sorted.push_back(emitter.particles[particle]);
 }
 
 }  // namespace
@@ -86,10 +81,13 @@ ReferenceImage blended(ReferenceImage color, const StageInput& input, const Plac
 }
 
 ReferenceImage blended_by_object(ReferenceImage color, const StageInput& input, const SampleBlend& blend) {
-    Frame alone = input.frame;
-    for (const std::uint32_t index : painters_order(input.frame)) {
-        keep_only(alone, input.frame, index);
-        color = blended(std::move(color), {alone, input.before}, blend);
+    Frame sorted = input.frame;
+    const ReferenceImage depth = opaque_depth(input.before, color);
+    const LightAround around = indirect::volume_light(input.frame, input.before);
+    for (const std::uint32_t object : painters_order(input.frame)) {
+        sort_particles(sorted, input.frame, object);
+        std::optional<FragmentLists> lists = transparent_fragments(sorted, depth, {}, around, {&object, 1});
+        color = blended(std::move(color), {sorted, input.before, &lists}, blend);
     }
     return color;
 }

@@ -11,6 +11,8 @@
 
 #include "capture_format/container/kept_files.h"
 #include "capture_format/container/whole_file.h"
+#include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/cli/given_options.h"
 #include "replay/cli/left_out.h"
 #include "replay/cli/output_picture.h"
@@ -22,6 +24,7 @@
 #include "replay/images/image_io.h"
 #include "replay/plural.h"
 #include "replay/progress_line.h"
+#include "replay/report/compare_with_truth.h"
 #include "replay/revision.h"
 
 namespace strata {
@@ -44,6 +47,7 @@ struct DiffArguments {
     ErrorLimits limits;
     std::vector<std::string> ignored;
     std::filesystem::path junit, output;  ///< output: a folder for pictures, or a page
+    std::string error_at, stage;          ///< of the truth that takes the place of A
     const CLI::App* app = nullptr;        ///< what was given
 };
 
@@ -192,6 +196,46 @@ Result<void> compare_captures(const DiffArguments& options, Pictures& pictures, 
     return {};
 }
 
+/// --stage, or the one stage that --use and --set name.
+Result<Stage> stage_of_truth(const DiffArguments& options, const Request& request) {
+    if (!options.stage.empty()) return stage_called(options.stage);
+    std::set<Stage> named;
+    for (const Technique* technique : request.choices.techniques)
+        if (technique) named.insert(technique->stage);
+    for (const SettingChange& change : request.choices.settings)
+        if (change.technique) named.insert(change.technique->stage);
+    if (named.size() == 1) return *named.begin();
+    return fail(Fault::usage, "diff.choose_stage",
+                "--error-at {at} compares with the truth of one stage, and --use and --set name {stages}; choose it with --stage",
+                options.error_at, named.empty() ? "none" : std::to_string(named.size()));
+}
+
+/// One capture, and in place of A the truth of a stage.
+Result<void> compare_with_truths(const DiffArguments& options, Pictures& pictures, Comparison& comparison) {
+    auto request = request_of_side(options, options.b);
+    if (!request) return request.error();
+    const auto stage = stage_of_truth(options, *request);
+    if (!stage) return stage.error();
+    const auto session = open_side(options, options.b);
+    if (!session) return session.error();
+    const auto frames = frame_indices(options.frames, (*session)->frame_count());
+    if (!frames) return frames.error();
+    const ErrorAt at = options.error_at == "picture" ? ErrorAt::picture : ErrorAt::stage;
+    comparison.b = describe(options.b, **session);
+    const Progress progress = progress_line();
+    LeftOutNotes notes;
+    for (const std::size_t frame : *frames) {
+        show_frame(progress, comparison.frames.size(), frames->size());
+        request->variant.frame = frame;
+        if (const auto told = notes.tell(**session, *request); !told) return told;
+        auto made = compare_with_truth({**session, *request}, *stage, at, options.limits, seeing(pictures, frame));
+        if (!made) return within(made.error(), "frame {frame}", frame);
+        comparison.a = {.name = made->truth};
+        comparison.frames.push_back(std::move(made->frame));
+    }
+    return {};
+}
+
 /// Images are compared one after the other.
 Result<void> check_room(const NamedImages& images, const MemoryBudget& budget) {
     for (const auto& [name, image] : images) {
@@ -291,6 +335,7 @@ Result<void> compare_files(const DiffArguments& options, Pictures& pictures, Com
 Result<void> compare(const DiffArguments& options, Pictures& pictures, Comparison& comparison) {
     const bool a_is_capture = kind_of(options.a.file) == FileKind::capture,
                b_is_capture = kind_of(options.b.file) == FileKind::capture;
+    if (!options.error_at.empty()) return compare_with_truths(options, pictures, comparison);
     if (a_is_capture && b_is_capture) return compare_captures(options, pictures, comparison);
     if (a_is_capture) return compare_with_images(options, {.replayed = options.a, .file = options.b}, pictures, comparison);
     if (b_is_capture) return compare_with_images(options, {.replayed = options.b, .file = options.a}, pictures, comparison);
@@ -380,9 +425,19 @@ bool has_a_side_b(const DiffArguments& options) {
            options.a.gpu != options.b.gpu;
 }
 
+/// With --error-at A is a truth.
+Result<void> check_options_beside_truth(const DiffArguments& options) {
+    const std::string_view why = "with --error-at A is the truth of B";
+    if (kind_of(options.a.file) != FileKind::capture)
+        return fail(Fault::usage, "diff.no_truth_of_image", "{file} is an image; --error-at compares a replay with its truth",
+                    options.a.file.string());
+    return check_not_given(*options.app, {"B", "--use-a", "--set-a", "--gpu-a", "--gpu-b"}, why);
+}
+
 /// What is said of replaying where one side or both are images, and what is missing where there is one file.
 Result<void> check_options(const DiffArguments& options) {
     const CLI::App& app = *options.app;
+    if (!options.error_at.empty()) return check_options_beside_truth(options);
     const auto is_image = [](const std::filesystem::path& file) { return !file.empty() && kind_of(file) != FileKind::capture; };
     if (options.b.file.empty() && is_image(options.a.file))
         return fail(Fault::usage, "diff.nothing_to_compare",
@@ -442,6 +497,12 @@ void add_sides(CLI::App& app, DiffArguments& options) {
     add_options(app, options.device);
     app.add_option("--gpu-a", options.a.gpu, "device for A; default that of --gpu");
     app.add_option("--gpu-b", options.b.gpu, "device for B; default that of --gpu");
+    app.add_option("--error-at", options.error_at,
+                   "compare with the truth of a stage instead of A: its images (stage), or the picture that the later stages "
+                   "make of it (picture)")
+        ->check(one_of({"stage", "picture"}));
+    app.add_option("--stage", options.stage, "stage of --error-at; default: the one that --use and --set name")
+        ->needs("--error-at");
     app.add_flag("--allow-partial", options.allow_partial, "read the complete frames of a truncated file");
     app.add_option("--frames", options.frames, "indices of frames, like 0,4-8; default all");
 }

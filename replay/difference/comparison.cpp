@@ -45,20 +45,6 @@ Result<PassComparison> compare_passes(const PassImages& a, const PassImages& b, 
     return pass;
 }
 
-/// Notes the pass's verdicts, and the first that is over tolerance. FLIP's maps have been seen by now; those of many frames would
-/// fill the memory.
-void add(FrameComparison& frame, PassComparison pass) {
-    for (ImageComparison& image : pass.images) {
-        if (image.flip) {
-            image.flip->map = {};
-            image.flip->exposure = {};
-        }
-        frame.verdict = std::max(frame.verdict, image.verdict);
-        if (image.verdict == Verdict::over && frame.divergence.pass.empty()) frame.divergence = {pass.label, image.image, ""};
-    }
-    frame.passes.push_back(std::move(pass));
-}
-
 /// The first step of two equal plans that wrote something else.
 Result<std::string> first_step(const std::vector<StepImages>& a, const std::vector<StepImages>& b, const ErrorLimits& limits) {
     if (a.size() != b.size()) return fmt::format("the plans differ: {} steps against {}", a.size(), b.size());
@@ -102,6 +88,18 @@ Result<void> find_step(FrameComparison& frame, std::span<const PassImages> passe
 
 }  // namespace
 
+void add_pass(FrameComparison& frame, PassComparison pass) {
+    for (ImageComparison& image : pass.images) {
+        if (image.flip) {
+            image.flip->map = {};
+            image.flip->exposure = {};
+        }
+        frame.verdict = std::max(frame.verdict, image.verdict);
+        if (image.verdict == Verdict::over && frame.divergence.pass.empty()) frame.divergence = {pass.label, image.image, ""};
+    }
+    frame.passes.push_back(std::move(pass));
+}
+
 Result<FrameComparison> compare_runs(const RunToCompare& a, const RunToCompare& b, const ErrorLimits& limits,
                                      const SeeImages& see) {
     const auto passes_a = a.session.pass_images(a.request);
@@ -112,20 +110,20 @@ Result<FrameComparison> compare_runs(const RunToCompare& a, const RunToCompare& 
     // Passes stand in the order of the frame; a stage that only one frame needs is a pass without a partner.
     auto next = passes_b->begin();
     const auto add_of_b_alone = [&](const PassImages& pass) {
-        if (limits.images.empty()) add(frame, {pass.label, "", pass.choice, {in_one_alone("every output", "B")}});
+        if (limits.images.empty()) add_pass(frame, {pass.label, "", pass.choice, {in_one_alone("every output", "B")}});
     };
     for (const PassImages& of_a : *passes_a) {
         const auto partner =
             std::find_if(next, passes_b->end(), [&](const PassImages& of_b) { return of_b.label == of_a.label; });
         if (partner == passes_b->end()) {
-            if (limits.images.empty()) add(frame, {of_a.label, of_a.choice, "", {in_one_alone("every output", "A")}});
+            if (limits.images.empty()) add_pass(frame, {of_a.label, of_a.choice, "", {in_one_alone("every output", "A")}});
             continue;
         }
         for (; next != partner; ++next) add_of_b_alone(*next);
         next = partner + 1;
         auto pass = compare_passes(of_a, *partner, limits, see);
         if (!pass) return pass.error();
-        add(frame, *std::move(pass));
+        add_pass(frame, *std::move(pass));
     }
     for (; next != passes_b->end(); ++next) add_of_b_alone(*next);
     if (const auto found = find_step(frame, *passes_a, a, b, limits); !found) return found.error();
@@ -153,7 +151,7 @@ Result<FrameComparison> compare_image_sets(const NamedImages& a, const NamedImag
         if (!single && !a.contains(image) && limits.asks_for(image))
             return fail(Fault::usage, "difference.image_missing", "{side} has an image '{image}' and {other} has none", "B",
                         image, "A");
-    add(frame, std::move(pass));
+    add_pass(frame, std::move(pass));
     return frame;
 }
 

@@ -32,7 +32,12 @@ struct FrameComparison {
     std::vector<PassComparison> passes;
     Divergence divergence;
     Verdict verdict = Verdict::same;  ///< the worst of all
+    std::vector<std::string> notes = {};
 };
+
+/// Notes the pass's verdicts, and the first that is over tolerance. FLIP's maps have been seen by now; those of many frames would
+/// fill the memory.
+void add_pass(FrameComparison&, PassComparison);
 
 /// A side of a comparison in words.
 struct Side {

@@ -279,6 +279,7 @@ ordered_json json_of(const FrameComparison& frame, const FlipOptions& flip) {
     if (!frame.divergence.pass.empty())
         json["first_difference"] = {
             {"pass", frame.divergence.pass}, {"image", frame.divergence.image}, {"step", frame.divergence.step}};
+    if (!frame.notes.empty()) json["notes"] = frame.notes;
     return json;
 }
 
@@ -312,6 +313,7 @@ Page page_of(const Comparison& comparison) {
         const Divergence& first = frame.divergence;
         page.emplace_back((first.pass.empty() ? "" : fmt::format("  first difference: {}: {}\n", first.pass, first.image)) +
                           (first.step.empty() ? "" : fmt::format("    {}\n", first.step)));
+        for (const std::string& note : frame.notes) page.emplace_back(fmt::format("  {}\n", note));
         for (const PassComparison& pass : frame.passes) {
             images += pass.images.size();
             over += static_cast<std::size_t>(std::ranges::count(pass.images, Verdict::over, &ImageComparison::verdict));

@@ -270,7 +270,15 @@ std::string lit_by_technique(const testing::TestParamInfo<const Technique*>& tes
     return as_identifier(std::string(tested.param->name));
 }
 
-INSTANTIATE_TEST_SUITE_P(Some, LitGlassBy, testing::ValuesIn(every_nth(3, techniques_of(Stage::transparency))), lit_by_technique);
+/// Those whose models rasterize one object after the other among them.
+std::vector<const Technique*> some_techniques() {
+    std::vector<const Technique*> some = every_nth(3, techniques_of(Stage::transparency));
+    for (const Technique* technique : techniques_of(Stage::transparency))
+        if (technique->abilities.sorts_objects && std::ranges::count(some, technique) == 0) some.push_back(technique);
+    return some;
+}
+
+INSTANTIATE_TEST_SUITE_P(Some, LitGlassBy, testing::ValuesIn(some_techniques()), lit_by_technique);
 INSTANTIATE_TEST_SUITE_P(Exhaustive, LitGlassBy, testing::ValuesIn(techniques_of(Stage::transparency)), lit_by_technique);
 
 TEST(LitGlass, KeepsItsLightWhereTheTruthTakesTheOpaqueSurfaces) {

@@ -49,6 +49,61 @@ TEST_F(Diff, OfTwoTechniquesNamesTheStageAndWhatStayedTheSame) {
     EXPECT_EQ(diff["rerun"], "strata diff panes.strata --use transparency/weighted --json");
 }
 
+/// The one image of a pass, as `rows` of JSON have it.
+json only_image(const Finished& made, const std::string& pass) {
+    const json diff = json::parse(made.out);
+    for (const json& row : diff["frames"][0]["passes"])
+        if (row["pass"] == pass && row.contains("images") && row["images"].size() == 1) return row["images"][0];
+    return {};
+}
+
+// Sorted lists are exact but for rounding, and the truth never runs on a device.
+TEST_F(Diff, WithATruthIsThatWithAnExactTechniqueAtTheStageAndAtThePicture) {
+    const std::string weighted = "diff panes.strata --use transparency/weighted --json ";
+    const std::string with_exact = weighted + "--use-a transparency/sorted_lists --images ";
+    const auto expect_equal = [](const json& truth, const json& exact) {
+        EXPECT_EQ(truth["verdict"], "over");
+        for (const char* figure : {"rmse", "relative_rmse", "worst", "share_over_limit"})
+            EXPECT_NEAR(truth["error"][figure].get<double>(), exact["error"][figure].get<double>(), 1e-5) << figure;
+        EXPECT_GT(truth["error"]["rmse"], 1e-3);
+        EXPECT_NEAR(truth["flip"]["mean"].get<double>(), exact["flip"]["mean"].get<double>(), 1e-4);
+        EXPECT_NEAR(truth["error"]["worst_pixel"]["a"].get<double>(), exact["error"]["worst_pixel"]["a"].get<double>(), 1e-5);
+    };
+    const std::string limit = " --limit 1e-5";
+    const Finished at_stage = strata(weighted + "--error-at stage" + limit),
+                   at_picture = strata(weighted + "--error-at picture" + limit);
+    EXPECT_EQ(at_stage.code, 1) << at_stage.err;
+    expect_equal(only_image(at_stage, "transparency"), only_image(strata(with_exact + "color" + limit), "transparency"));
+    expect_equal(only_image(at_picture, "transparency"), only_image(strata(with_exact + "display" + limit), "combine at film"));
+    EXPECT_EQ(strata("diff panes.strata --use transparency/sorted_lists --error-at picture --limit 1e-3").code, 0);
+}
+
+TEST_F(Diff, WithATruthHasTheErrorOfTheReport) {
+    for (const std::string at : {"stage", "picture"}) {
+        const json report =
+            json::parse(strata("report panes.strata --techniques weighted --error-at " + at + " --repeats 1 --json").out);
+        double error = 0;
+        for (const json& row : report["rows"])
+            if (row["technique"] == "transparency/weighted") error = row["ranking_error"];
+        const Finished diff = strata("diff panes.strata --use transparency/weighted --error-at " + at);
+        EXPECT_THAT(diff.out, HasSubstr(fmt::format("display rmse {:.3g} % of white over the ", 100 * error))) << at;
+    }
+}
+
+TEST_F(Diff, WithATruthIsOfOneReplayAndOneStage) {
+    ASSERT_EQ(strata("replay panes.strata -o out").code, 0);
+    const std::string weighted = "panes.strata --use transparency/weighted ";
+    const std::array<Refusal, 7> refusals = {
+        {{"panes.strata --error-at picture", 2, "diff.choose_stage", "at=picture stages=none"},
+         {weighted + "--use gbuffer/compact --error-at stage", 2, "diff.choose_stage", "at=stage stages=2"},
+         {"panes.strata panes.strata --stage transparency --error-at stage", 2, "options.not_applicable", "option=B"},
+         {weighted + "--use-a transparency/moments --error-at stage", 2, "options.not_applicable", "option=--use-a"},
+         {"panes.strata --stage edges --error-at stage", 2, "stage.not_needed", "stage=edges"},
+         {"panes.strata --stage combine --error-at picture", 2, "report.stage_makes_picture", "stage=combine"},
+         {"out/panes.f0000.exr --stage edges --error-at stage", 2, "diff.no_truth_of_image", "file=out/panes.f0000.exr"}}};
+    expect_refusals("diff", refusals);
+}
+
 TEST_F(Diff, OfTwoDevicesOpensBothAndSaysWhichTheyAre) {
     const Finished same = strata("diff panes.strata --gpu-a 0 --gpu-b llvmpipe --json");
     EXPECT_EQ(same.code, 0) << same.err;

@@ -207,6 +207,8 @@ private:
             const std::string step = frame.divergence.step.empty() ? "" : "; " + frame.divergence.step;
             add(fmt::format("frame {}", frame.frame), divergence_text(frame.divergence) + step);
         }
+        for (const FrameComparison& frame : comparison_.frames)
+            for (const std::string& note : frame.notes) add(fmt::format("frame {}", frame.frame), note);
         if (diverge > told) add("frames", plural(diverge - told, "more frame") + " over tolerance");
         return text;
     }
