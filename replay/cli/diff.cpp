@@ -497,9 +497,10 @@ void add_sides(CLI::App& app, DiffArguments& options) {
     add_options(app, options.device);
     app.add_option("--gpu-a", options.a.gpu, "device for A; default that of --gpu");
     app.add_option("--gpu-b", options.b.gpu, "device for B; default that of --gpu");
-    app.add_option("--error-at", options.error_at,
-                   "compare with the truth of a stage instead of A: its images (stage), or the picture that the later stages "
-                   "make of it (picture)")
+    app.add_option(
+           "--error-at", options.error_at,
+           "compare with the truth of a stage instead of A: the light that it makes (stage), or the picture that the later "
+           "stages make of it (picture)")
         ->check(one_of({"stage", "picture"}));
     app.add_option("--stage", options.stage, "stage of --error-at; default: the one that --use and --set name")
         ->needs("--error-at");

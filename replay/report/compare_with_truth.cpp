@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "capture_format/frame/frame.h"
+#include "passes/frame_images.h"
 #include "passes/reference/settle.h"
 #include "passes/registry.h"
 #include "passes/stages.h"
@@ -12,7 +13,7 @@
 #include "replay/plural.h"
 #include "replay/report/report_columns.h"
 #include "replay/report/row_truth.h"
-#include "replay/session/choices.h"
+#include "replay/session/describe_run.h"
 #include "replay/session/judgment.h"
 
 namespace strata {
@@ -20,29 +21,29 @@ namespace {
 
 constexpr const char* picture = "display";
 
-/// Floats of a shape; depth stays depth.
-HostImage host_image(const ReferenceImage& image, Shape shape) {
-    const FormatRow& stored = row(shape.format);
-    if (shape.format != Format::d32f)
-        shape.format = stored.channels == 1 ? Format::r32f : stored.channels == 2 ? Format::rg32f : Format::rgba32f;
+HostImage in_floats(const ReferenceImage& image, Content content) {
+    const std::uint32_t channels = image.channels == 1 ? 1 : image.channels == 2 ? 2 : 4;
+    const Format format = content == Content::depth ? Format::d32f
+                          : channels == 1           ? Format::r32f
+                          : channels == 2           ? Format::rg32f
+                                                    : Format::rgba32f;
     std::vector<float> values;
-    values.reserve(image.texels.size() * row(shape.format).channels);
+    values.reserve(image.texels.size() * channels);
     for (const glm::dvec4& texel : image.texels)
-        for (std::uint32_t c = 0; c < row(shape.format).channels; ++c)
-            values.push_back(static_cast<float>(texel[static_cast<glm::length_t>(c)]));
+        for (std::uint32_t c = 0; c < channels; ++c) values.push_back(static_cast<float>(texel[static_cast<glm::length_t>(c)]));
     const auto bytes = std::as_bytes(std::span(values));
-    return {shape, {bytes.begin(), bytes.end()}};
+    return {{.extent = {image.width, image.height, 1}, .format = format, .layers = image.layers}, {bytes.begin(), bytes.end()}};
 }
 
-/// A result and what it should be, in the same floats.
+/// A result and what it should be.
 struct Beside {
     HostImage wanted, got;
     std::size_t undecided = 0;  ///< texels that are made equal
 };
 
-Beside beside(const HostImage& result, ReferenceImage truth, Content content) {
-    const ReferenceImage got = in_double(result);
+Beside beside(const ReferenceImage& got, ReferenceImage truth, Content content) {
     settle(got, truth);
+    truth.channels = got.channels;
     Beside made;
     for (std::size_t i = 0; i < truth.texels.size(); ++i) {
         const bool is_undecided = !truth.undecided.empty() && truth.undecided[i];
@@ -51,65 +52,50 @@ Beside beside(const HostImage& result, ReferenceImage truth, Content content) {
         // Errors of light are those of its colors.
         if (content == Content::radiance || content == Content::display) truth.texels[i].w = got.texels[i].w;
     }
-    made.wanted = host_image(truth, result.shape);
-    made.got = host_image(got, result.shape);
+    made.wanted = in_floats(truth, content);
+    made.got = in_floats(got, content);
     return made;
 }
 
-bool is_of_shape(const ReferenceImage& truth, const Shape& shape) {
-    return truth.width == shape.extent.width && truth.height == shape.extent.height &&
-           truth.layers == shape.layers * shape.extent.depth;
+bool same_extent(const ReferenceImage& a, const ReferenceImage& b) {
+    return a.width == b.width && a.height == b.height && a.layers == b.layers;
 }
 
-/// What is compared, of one pass.
-struct Wanted {
-    PassComparison pass;
-    std::map<std::string, HostImage> images;
-    const ImageSet& truth;
-};
-
-Result<FrameComparison> compare_images_of(Wanted wanted, const ErrorLimits& limits, const SeeImages& see) {
+Result<FrameComparison> compare_each(PassComparison pass, const ImageSet& truth, const ImageSet& got, const ErrorLimits& limits,
+                                     const SeeImages& see) {
     FrameComparison frame;
     std::size_t undecided = 0;
-    for (const auto& [name, result] : wanted.images) {
-        const auto truth = wanted.truth.find(name);
-        if (truth == wanted.truth.end() || !limits.asks_for(name)) continue;
-        const Content content = content_of(name, result.shape.format);
-        if (content == Content::coded || !is_of_shape(truth->second, result.shape)) {
-            wanted.pass.images.push_back(
+    for (const auto& [name, wanted] : truth) {
+        const auto result = got.find(name);
+        if (result == got.end() || !limits.asks_for(name)) continue;
+        const Content content = find_frame_image(name)->content;
+        if (content == Content::coded || !same_extent(wanted, result->second)) {
+            pass.images.push_back(
                 {.image = name, .verdict = Verdict::not_compared, .reason = "its layout is the technique's own"});
             continue;
         }
-        const Beside both = beside(result, truth->second, content);
+        const Beside both = beside(result->second, wanted, content);
         auto made = compare_images(name, both.wanted, both.got, limits);
         if (!made) return made.error();
         undecided += both.undecided;
         if (see)
-            if (const auto seen = see(wanted.pass, *made, both.wanted, both.got); !seen) return seen.error();
-        wanted.pass.images.push_back(*std::move(made));
+            if (const auto seen = see(pass, *made, both.wanted, both.got); !seen) return seen.error();
+        pass.images.push_back(*std::move(made));
     }
     if (undecided > 0)
         frame.notes.push_back(fmt::format("{} left out: rounding decides the truth there", plural(undecided, "texel")));
-    add_pass(frame, std::move(wanted.pass));
+    add_pass(frame, std::move(pass));
     return frame;
 }
 
-/// What the stage's pass gives. Images that a technique makes for nobody but who asks for them are asked for.
-Result<PassImages> pass_of(const RunToCompare& run, Stage stage, const ImageSet& truth) {
-    auto passes = run.session.pass_images(run.request);
-    if (!passes) return passes.error();
-    const auto pass = std::ranges::find(*passes, stage, &PassImages::stage);
-    if (pass == passes->end())
-        return fail(Fault::usage, "stage.not_needed", "the frame does not need the stage {stage}", name(stage));
+/// What the stage gives, or the picture.
+Result<ImageSet> images_of(const RunToCompare& run, Stage stage, ErrorAt at) {
+    if (at == ErrorAt::stage) return run.session.stage_images(run.request, stage);
     Request request = run.request;
-    request.outputs.clear();
-    for (const auto& [image, of_truth] : truth)
-        if (!pass->images.contains(image)) request.outputs.push_back(image);
-    if (request.outputs.empty()) return std::move(*pass);
-    auto asked = run.session.run(request);
-    if (!asked) return asked.error();
-    pass->images.merge(asked->images);
-    return std::move(*pass);
+    request.outputs = {picture};
+    return run.session.run(request).and_then([](const Run& made) {
+        return Result<ImageSet>(ImageSet{{picture, in_double(made.images.at(picture))}});
+    });
 }
 
 /// The row's errors as a report has them, in a sentence.
@@ -126,7 +112,7 @@ Result<std::string> error_text(const RunToCompare& run, Stage stage, const RowTr
     const Metric& shown = of_display == errors.end() ? errors.front() : *of_display;
     const std::string value =
         is_of_white(shown) ? fmt::format("{} % of white", short_number(100 * shown.value)) : short_number(shown.value);
-    return fmt::format("{} {}{}", shown.name, value,
+    return fmt::format("as a report has it: {} {}{}", shown.name, value,
                        is_touched ? fmt::format(" over the {:.3g} % of the pixels that {} can change",
                                                 100 * accuracy->touched_share, name(stage))
                                   : "");
@@ -136,27 +122,23 @@ Result<std::string> error_text(const RunToCompare& run, Stage stage, const RowTr
 
 Result<TruthComparison> compare_with_truth(const RunToCompare& run, Stage stage, ErrorAt at, const ErrorLimits& limits,
                                            const SeeImages& see) {
+    if (at == ErrorAt::stage && !holds_radiance(info(stage).outputs.front()) && !makes_picture(stage))
+        return fail(Fault::usage, "diff.stage_makes_no_light",
+                    "{stage} makes no light: which of its texels anybody reads shows in the picture; pass --error-at picture",
+                    name(stage));
     const auto frame = run.session.frame(run.request.variant.frame);
     if (!frame) return frame.error();
     const Variant row{.request = run.request};
     const auto truths = find_row_truths(run.session, {.base = run.request, .error_at = at, .stage = stage}, {&row, 1}, *frame);
     if (!truths) return truths.error();
     const RowTruth& truth = truths->all.front();
-    auto pass = pass_of(run, stage, truth.truth);
-    if (!pass) return pass.error();
-    ImageSet display;
-    if (at == ErrorAt::picture) {
-        Request request = run.request;
-        request.outputs = {picture};
-        auto made = run.session.run(request);
-        if (!made) return made.error();
-        display.emplace(picture, truth.picture->display);
-        pass->images = std::move(made->images);
-    }
-    auto compared = compare_images_of({{.label = pass->label, .choice_a = "the truth", .choice_b = pass->choice},
-                                       std::move(pass->images),
-                                       at == ErrorAt::picture ? display : truth.truth},
-                                      limits, see);
+    const auto choices = choose(*frame, run.request.choices);
+    if (!choices) return choices.error();
+    const auto images = images_of(run, stage, at);
+    if (!images) return images.error();
+    auto compared =
+        compare_each({.label = std::string(name(stage)), .choice_a = "the truth", .choice_b = choice_line(choices->at(stage))},
+                     at == ErrorAt::picture ? ImageSet{{picture, truth.picture->display}} : truth.truth, *images, limits, see);
     if (!compared) return compared.error();
     compared->frame = run.request.variant.frame;
     const auto error = error_text(run, stage, truth);

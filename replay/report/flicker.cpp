@@ -54,22 +54,6 @@ Result<std::optional<Request>> stand_in(Session& session, Stage stage, const Req
     return std::optional<Request>();
 }
 
-/// What flicker is measured on: the stage's first output, and of a G-buffer the depths that say what masked surfaces cover.
-std::vector<std::string> judged_outputs(Stage stage) {
-    std::vector<std::string> names = {std::string(info(stage).outputs.front())};
-    if (stage == Stage::gbuffer) names.emplace_back("depth_layers");
-    return names;
-}
-
-Result<ImageSet> outputs_of(Session& session, Request request, Stage stage) {
-    request.outputs = judged_outputs(stage);
-    auto run = session.run(request);
-    if (!run) return run.error();
-    ImageSet images;
-    for (const std::string& output : request.outputs) images.emplace(output, in_double(run->images.at(output)));
-    return images;
-}
-
 /// The rows' truths, each once: the request that asks for it, and per row which one it is.
 struct Truths {
     std::vector<Request> asked;
@@ -168,12 +152,12 @@ Result<std::vector<MeasuredFlicker>> measure_flicker(Session& session, const Rep
         };
         std::vector<ImageSet> wanted_images;
         for (const Request& asks : truths->asked) {
-            auto truth = *exact ? outputs_of(session, placed(asks), wanted.stage) : session.truth(placed(asks), wanted.stage);
+            auto truth = *exact ? session.stage_images(placed(asks), wanted.stage) : session.truth(placed(asks), wanted.stage);
             if (!truth) return truth.error();
             wanted_images.push_back(*std::move(truth));
         }
         for (std::size_t r = 0; r < rows.size(); ++r) {
-            const auto got = outputs_of(session, placed(rows[r]), wanted.stage);
+            const auto got = session.stage_images(placed(rows[r]), wanted.stage);
             if (!got) return got.error();
             flickers[r].add_frame(wanted, *got, wanted_images[*exact ? 0 : truths->of_row[r]], *frame);
         }

@@ -108,37 +108,43 @@ Result<std::string> worst_pixel(Session& session, const ReportRequest& wanted, c
 /// Makes pictures of one stage of one frame.
 class Pictures {
 public:
-    Pictures(Session& session, const Report& report, const Frame& frame) : session_(&session), frame_(&frame) {
+    Pictures(Session& session, const Report& report, const Frame& frame)
+        : session_(&session), frame_(&frame), stage_(report.stage) {
         const std::string_view first = info(report.stage).outputs.front();
         if (holds_radiance(first) && report.error_at == ErrorAt::stage) radiance_ = first;
     }
 
-    std::string image() const { return radiance_.empty() ? frame_picture : radiance_; }
-
-    Result<ShownPicture> of(Request request) const {
-        request.outputs = {image()};
-        return session_->run(request).and_then([&](auto& run) { return shown(in_double(run.images.at(image()))); });
+    Result<ShownPicture> of(const Request& request) const {
+        if (!radiance_.empty())
+            return session_->stage_images(request, stage_).and_then([&](auto& images) {
+                return Result<ShownPicture>(shown(images.at(radiance_)));
+            });
+        return picture_of(session_->run(as_picture(request)));
     }
 
-    Result<ShownPicture> of_truth(const Request& base, Stage stage, const RowTruth& truth) const {
+    Result<ShownPicture> of_truth(const Request& base, const RowTruth& truth) const {
         if (truth.picture) return shown_picture(truth.picture->display);
         if (!radiance_.empty()) return shown(truth.truth.find(radiance_)->second);
-        Request request = base;
-        request.outputs = {frame_picture};
-        if (makes_picture(stage)) return shown_picture(truth.truth.find(frame_picture)->second);
-        return session_->run_from(request, stage, truth.truth).and_then([](auto& run) {
-            return Result<ShownPicture>(shown_picture(in_double(run.images.at(frame_picture))));
-        });
+        if (makes_picture(stage_)) return shown_picture(truth.truth.find(frame_picture)->second);
+        return picture_of(session_->run_from(as_picture(base), stage_, truth.truth));
     }
 
 private:
-    Result<ShownPicture> shown(const ReferenceImage& image) const {
-        if (radiance_.empty()) return shown_picture(image);
-        return shown_picture(tone_mapped(image, double(frame_->view.exposure), double(frame_->film.white)));
+    static Request as_picture(Request request) {
+        request.outputs = {frame_picture};
+        return request;
+    }
+    static Result<ShownPicture> picture_of(const Result<Run>& run) {
+        if (!run) return run.error();
+        return shown_picture(in_double(run->images.at(frame_picture)));
+    }
+    ShownPicture shown(const ReferenceImage& radiance) const {
+        return shown_picture(tone_mapped(radiance, double(frame_->view.exposure), double(frame_->film.white)));
     }
 
     Session* session_;
     const Frame* frame_;
+    Stage stage_;
     std::string radiance_;  ///< the stage's image; empty: the frame's picture is shown
 };
 
@@ -149,7 +155,7 @@ Result<void> add_pictures(Session& session, const ReportRequest& wanted, std::sp
     const auto frame = session.frame(wanted.base.variant.frame);
     if (!frame) return frame.error();
     const Pictures pictures(session, report, *frame);
-    const auto truth = pictures.of_truth(wanted.base, wanted.stage, truths.all.front());
+    const auto truth = pictures.of_truth(wanted.base, truths.all.front());
     // Later stages read more of the pass than images, which no truth has: culling, shadow maps that lighting reads itself.
     if (!truth && truth.error().fault == Fault::usage) return {};
     if (!truth) return truth.error();

@@ -74,11 +74,12 @@ Result<RowTruth> find_row_truth(Session& session, const ReportRequest& wanted, c
         const auto accuracy = session.judge(reduced, wanted.stage, Against::model);
         if (!accuracy) return accuracy.error();
         if (!accuracy->not_supported.empty() || accuracy->model_rmse > stand_in_tolerance) continue;
-        request.outputs.assign(info(wanted.stage).outputs.begin(), info(wanted.stage).outputs.end());
         const auto run = session.run(request);
         if (!run) return run.error();
         if (!notes_no_limitation(*run, *technique)) continue;
-        for (const auto& [name, image] : run->images) row_truth.truth.emplace(name, in_double(image));
+        auto images = session.stage_images(request, wanted.stage);
+        if (!images) return images.error();
+        row_truth.truth = *std::move(images);
         row_truth.name = fmt::format("{} stands in (relative rmse {:.1e} against the truth at 1/{} extent)", technique->name,
                                      accuracy->model_rmse, row_truth.model_divisor);
         return row_truth;

@@ -44,6 +44,7 @@ public:
     Result<std::vector<StepImages>> step_images(const Request&, Stage) override;
     Result<std::vector<StepImages>> pixel_steps(const Request&, glm::uvec2 pixel) override;
     Result<std::vector<Cover>> draw_cover(const Request&, std::uint32_t draw) override;
+    Result<ImageSet> stage_images(const Request&, Stage) override;
     Result<ImageSet> truth(const Request&, Stage) override;
     Result<Accuracy> judge(const Request&, Stage, Against, const ImageSet* truth) override;
     Result<const FragmentLists*> transparent_fragments(const Request&) override;
@@ -103,7 +104,9 @@ private:
     const ShaderLibrary& shaders() const {
         return shader_sets_.empty() ? ShaderLibrary::built_in() : shader_sets_.back()->library;
     }
-    Result<Inspected> inspect(const Request&, Stage);
+    enum class FoundImages { read, not_read };
+    /// Fills found_ if asked to.
+    Result<Inspected> inspect(const Request&, Stage, FoundImages = FoundImages::read);
     /// Of kept stage outputs, and of fragments beside them: a 1080p frame at four samples is about 1 GiB of outputs.
     static constexpr std::uint64_t memo_budget_bytes = std::uint64_t(1) << 30;
     /// Frees found_->fragments where they take more bytes than this.

@@ -110,6 +110,36 @@ std::optional<glm::uvec2> texel_under(const Shape& shape, const Extent& frame, g
     return pixel / k;
 }
 
+/// An output of a stage and the step after which it is what the stage made of it.
+struct LeftOutput {
+    std::string_view name;
+    Image image;
+    std::size_t step = 0;
+};
+
+/// Outputs as a pass leaves them. `lacks`: the plan has no step for one that the pass made, as the memo put a later stage's in
+/// its place.
+struct LeftOutputs {
+    std::vector<LeftOutput> all;
+    bool lacks = false;
+};
+
+LeftOutputs outputs_left_by(const Declaration& d, std::size_t place) {
+    const DeclaredPass& pass = d.frame.passes[place];
+    const Stage stage = pass.technique->stage;
+    const std::size_t end = first_step_after(d.plan, end_scope(d, pass));
+    LeftOutputs left;
+    for (const std::string_view output : info(stage).outputs) {
+        Image FrameImages::*const member = find_frame_image(output)->member;
+        const Image image = images_after(d, place).*member;
+        if (!image || d.graph.shape(image).samples > 1) continue;
+        const auto step = last_write(d.plan, image, end);
+        if (step && is_step_of(d, stage, *step)) left.all.push_back({output, image, *step});
+        else left.lacks = left.lacks || image != pass.before.*member;
+    }
+    return left;
+}
+
 PassImages describe_pass(const Declaration& d, const DeclaredPass& pass) {
     const Stage stage = pass.technique->stage;
     std::string label(name(stage));
@@ -135,19 +165,20 @@ Result<HostImage> DeviceSession::peek(const Request& request, std::size_t step, 
     });
 }
 
-Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, Stage stage) {
+Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, Stage stage, FoundImages found) {
     // Under a memory budget what the memo may hold depends on the peeks, which depend on the plan: then everything is executed.
     auto declared = prepare(request, memory_budget_ == 0 ? &memo_ : nullptr, Keep::all_images);
     if (!declared) return declared.error();
     const auto passes_before = before_last_pass(*declared, stage);
     std::vector<std::uint64_t> keys = declared->pass_keys;
     if (passes_before) keys.resize(std::min(keys.size(), *passes_before));
-    const bool is_known = passes_before && found_ && !keys.empty() && found_->keys == keys;
-    if (!is_known) {
+    const bool is_known = found_ && !keys.empty() && found_->keys == keys;
+    const bool reads_found = passes_before && !is_known && found == FoundImages::read;
+    if (!passes_before || reads_found || outputs_left_by(*declared, *passes_before).lacks) {
         memo_.drop_unfilled();
         if (!passes_before)
             return fail(Fault::usage, "stage.not_needed", "the frame does not need the stage {stage}", name(stage));
-        // What the memo puts in the place of a stage leaves out what only that stage would have read.
+        // What the memo puts in the place of a stage leaves out what only that stage would have read or drawn over.
         declared = prepare(request, nullptr, Keep::all_images);
         if (!declared) return declared.error();
     }
@@ -161,13 +192,9 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
             places.push_back({std::string(image_name), peeks.add(*step, image)});
     };
     for (const FrameImageRow& row : frame_images())
-        if (!is_known) want(before, row.name, last->before.*row.member, first_step_after(d.plan, last->scope - 1));
-    for (const std::string_view output : info(stage).outputs) {
-        const Image image = images_after(d, *passes_before).*find_frame_image(output)->member;
-        const std::size_t end = first_step_after(d.plan, end_scope(d, *last));
-        const auto step = image ? last_write(d.plan, image, end) : std::nullopt;
-        if (step && is_step_of(d, stage, *step)) want(result, output, image, end);
-    }
+        if (reads_found) want(before, row.name, last->before.*row.member, first_step_after(d.plan, last->scope - 1));
+    for (const LeftOutput& output : outputs_left_by(d, *passes_before).all)
+        result.push_back({std::string(output.name), peeks.add(output.step, output.image)});
 
     const auto execution = execute(d, peeks.options());
     if (!execution) return execution.error();
@@ -183,11 +210,12 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
             }
         }
     };
-    if (!is_known) {
+    if (reads_found) {
         found_.emplace(Found{std::move(keys), {}, {}, {}});
         read(before, "the stages before it", found_->images, found_->light_faults);
     }
-    Inspected inspected{.choice = d.choices.at(stage), .result = {}, .light_faults = found_->light_faults};
+    Inspected inspected{.choice = d.choices.at(stage), .result = {}, .light_faults = {}};
+    if (found == FoundImages::read) inspected.light_faults = found_->light_faults;
     read(result, name(stage), inspected.result, inspected.light_faults);
     return inspected;
 }
@@ -322,6 +350,13 @@ void DeviceSession::drop_large_fragments(std::uint64_t most) {
     if (!found_ || !found_->fragments || found_->fragments->total() * sizeof(Fragment) <= most) return;
     found_->fragments.reset();
     release_freed_memory();
+}
+
+Result<ImageSet> DeviceSession::stage_images(const Request& request, Stage stage) {
+    auto inspected = inspect(request, stage, FoundImages::not_read);
+    if (!inspected) return inspected.error();
+    scale_light(inspected->result, 1 / pre_exposure());
+    return std::move(inspected->result);
 }
 
 Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {

@@ -78,6 +78,7 @@ public:
     Result<std::vector<StepImages>> step_images(const Request&, Stage) override { return not_asked(); }
     Result<std::vector<StepImages>> pixel_steps(const Request&, glm::uvec2) override { return not_asked(); }
     Result<std::vector<Cover>> draw_cover(const Request&, std::uint32_t) override { return not_asked(); }
+    Result<ImageSet> stage_images(const Request&, Stage) override { return not_asked(); }
     Result<ImageSet> truth(const Request&, Stage) override { return not_asked(); }
     Result<Accuracy> judge(const Request&, Stage, Against, const ImageSet*) override { return not_asked(); }
     Result<const FragmentLists*> transparent_fragments(const Request&) override { return not_asked(); }

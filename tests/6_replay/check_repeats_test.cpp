@@ -48,6 +48,7 @@ public:
     Result<std::vector<StepImages>> step_images(const Request& r, Stage s) override { return steady_->step_images(r, s); }
     Result<std::vector<StepImages>> pixel_steps(const Request& r, glm::uvec2 p) override { return steady_->pixel_steps(r, p); }
     Result<std::vector<Cover>> draw_cover(const Request& r, std::uint32_t d) override { return steady_->draw_cover(r, d); }
+    Result<ImageSet> stage_images(const Request& r, Stage s) override { return steady_->stage_images(r, s); }
     Result<ImageSet> truth(const Request& r, Stage s) override { return steady_->truth(r, s); }
     Result<Accuracy> judge(const Request& r, Stage s, Against a, const ImageSet* t) override {
         return steady_->judge(r, s, a, t);

@@ -86,7 +86,8 @@ TEST_F(Diff, WithATruthHasTheErrorOfTheReport) {
         for (const json& row : report["rows"])
             if (row["technique"] == "transparency/weighted") error = row["ranking_error"];
         const Finished diff = strata("diff panes.strata --use transparency/weighted --error-at " + at);
-        EXPECT_THAT(diff.out, HasSubstr(fmt::format("display rmse {:.3g} % of white over the ", 100 * error))) << at;
+        EXPECT_THAT(diff.out, HasSubstr(fmt::format("as a report has it: display rmse {:.3g} % of white over the ", 100 * error)))
+            << at;
     }
 }
 
@@ -98,9 +99,9 @@ TEST_F(Diff, WithATruthIsOfOneReplayAndOneStage) {
          {weighted + "--use gbuffer/compact --error-at stage", 2, "diff.choose_stage", "at=stage stages=2"},
          {"panes.strata panes.strata --stage transparency --error-at stage", 2, "options.not_applicable", "option=B"},
          {weighted + "--use-a transparency/moments --error-at stage", 2, "options.not_applicable", "option=--use-a"},
-         {"panes.strata --stage edges --error-at stage", 2, "stage.not_needed", "stage=edges"},
+         {"panes.strata --stage lens --error-at stage", 2, "stage.not_needed", "stage=lens"},
          {"panes.strata --stage combine --error-at picture", 2, "report.stage_makes_picture", "stage=combine"},
-         {"out/panes.f0000.exr --stage edges --error-at stage", 2, "diff.no_truth_of_image", "file=out/panes.f0000.exr"}}};
+         {"out/panes.f0000.exr --stage lens --error-at stage", 2, "diff.no_truth_of_image", "file=out/panes.f0000.exr"}}};
     expect_refusals("diff", refusals);
 }
 
