@@ -28,7 +28,7 @@ struct HullPoint {
 };
 
 /// The lower convex hull in (log error, log cost), as far as cost falls while error rises; errors increase strictly, costs
-/// decrease strictly. Errors below exact_below (replay/report/ranking.h) count as exact_below, because the axis has no 0: of
+/// decrease strictly. Errors below exact_below (replay/measure/exact_below.h) count as exact_below, because the axis has no 0: of
 /// several such points only the cheapest remains.
 std::vector<HullPoint> hull_of(std::span<const CostPoint>);
 Interval errors_of(std::span<const HullPoint>);  ///< logarithms

@@ -10,6 +10,7 @@
 #include "replay/probe/order.h"
 #include "replay/probe/probe.h"
 #include "replay/probe/svg.h"
+#include "replay/tables/table.h"
 
 namespace strata {
 namespace {
@@ -207,6 +208,12 @@ private:
         drawing_.polyline(points, through_box, pen);
     }
 
+    static std::string figures_of(const ProbeMetrics& metrics) {
+        const std::string of_fragments = fmt::format("L1 {:.4f}   E_w {:.4f}", metrics.l1_logarithmic, metrics.fragment_weighted);
+        if (!metrics.display_error) return of_fragments;
+        return fmt::format("off {} %   {}", short_number(100 * *metrics.display_error), of_fragments);
+    }
+
     void legend() {
         constexpr double left = 892;
         double y = through_box.top + 10;
@@ -220,14 +227,11 @@ private:
             // All are of one stage. Long settings get smaller letters, .62 of their size wide: 246 pixels are left.
             const std::string variant = curve.variant.substr(curve.variant.find('/') + 1);
             drawing_.text({left + 38, y + 4}, variant, Anchor::start, std::clamp(246 / (.62 * double(variant.size())), 6., 12.));
-            drawing_.text(
-                {left + 38, y + 18},
-                has_curve ? fmt::format("L1 {:.4f}   E_w {:.4f}", curve.metrics.l1_logarithmic, curve.metrics.fragment_weighted)
-                          : curve.not_supported,
-                Anchor::start, 10);
+            drawing_.text({left + 38, y + 18}, has_curve ? figures_of(curve.metrics) : curve.not_supported, Anchor::start, 10);
         }
-        drawing_.text({left, y + 42}, "L1: mean error over the depth axis", Anchor::start, 10);
-        drawing_.text({left, y + 56}, "E_w: over fragments, weighted by what each hides", Anchor::start, 10);
+        drawing_.text({left, y + 42}, "off: the pixel of the frame, as a display shows it, of white", Anchor::start, 10);
+        drawing_.text({left, y + 56}, "L1: mean error over the depth axis", Anchor::start, 10);
+        drawing_.text({left, y + 70}, "E_w: over fragments, weighted by what each hides", Anchor::start, 10);
     }
 
     const Probe& probe_;

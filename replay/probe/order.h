@@ -4,19 +4,22 @@
 #include <algorithm>
 #include <functional>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
+#include "replay/measure/exact_below.h"
 #include "replay/probe/probe.h"
 
 namespace strata {
 
-/// Curves by their error over the logarithm of depth, least first; those without a curve last.
+/// Curves by the error of what a display shows of the pixel, least first, those that are exact by their error over the logarithm
+/// of depth; those without a curve last.
 inline std::vector<const ProbeCurve*> best_first(const Probe& probe) {
     std::vector<const ProbeCurve*> order;
     for (const ProbeCurve& curve : probe.curves) order.push_back(&curve);
     std::ranges::stable_sort(order, std::ranges::less{}, [](const ProbeCurve* curve) {
-        return std::pair(!curve->not_supported.empty(), curve->metrics.l1_logarithmic);
+        const double shown = curve->metrics.display_error.value_or(0);
+        return std::tuple(!curve->not_supported.empty(), shown > exact_below ? shown : 0, curve->metrics.l1_logarithmic);
     });
     return order;
 }

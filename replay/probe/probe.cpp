@@ -185,8 +185,8 @@ std::vector<std::string> notes_of(const Measured& measured, ProbeKind kind, cons
                                     measured.own_slices));
     if (technique.abilities.sorts_objects)
         notes.push_back(
-            "it sorts objects, and here every fragment is one: how wrong their order is in the frame does not show; compare the "
-            "pixel with `strata diff`");
+            "it sorts objects, and here every fragment is one: how wrong their order is in the frame shows in the display error "
+            "alone");
     return notes;
 }
 
@@ -338,6 +338,7 @@ Result<Probe> probe(Session& session, const Request& request, PixelAt at, const 
     made->frame = request.variant.frame;
     made->at = at;
     made->undecided = undecided;
+    if (const auto added = add_display_errors(session, request, *made); !added) return added.error();
     return made;
 }
 

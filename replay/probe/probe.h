@@ -36,6 +36,8 @@ struct ProbeMetrics {
     std::optional<double> worst_off_steps;
     double fragment_weighted = 0;  ///< sum of (1 - t) |T^ - T| over the fragments / sum of 1 - t
     double total = 0;              ///< T^ - T behind everything
+    /// Of white, root mean square: the pixel of the recorded frame by the technique, beside the exact one (add_display_errors).
+    std::optional<double> display_error = {};
 };
 
 /// From one depth to another, meters.
@@ -73,8 +75,13 @@ struct Probe {
     std::string capture_id = {}, capture_name = {}, date = {};  ///< for JSON, the caller's; utc_date()
 };
 
-/// Fails (usage) for a pixel outside the picture or without a fragment, and for techniques and settings that do not exist.
+/// Display errors among the figures. Fails (usage) for a pixel outside the picture or without a fragment, and for techniques and
+/// settings that do not exist.
 Result<Probe> probe(Session&, const Request&, PixelAt, const ProbeOptions&);
+
+/// Fills ProbeMetrics::display_error of the curves that lack it, where an exact technique can do the frame. Draws of one object,
+/// their order and the layers that a technique keeps are those of the frame, which fragments alone do not show.
+Result<void> add_display_errors(Session&, const Request&, Probe&);
 
 /// The same of given fragments, at least one, in submission order, no two of one number; nearest to farthest is the range of
 /// depth techniques map by.

@@ -106,6 +106,13 @@ std::vector<Column<Curve>> variant_columns() {
               .shown = in_files},
              [](const Curve& curve) { return cell_if_any(curve->not_supported); },
              Of::every_row},
+            metric_column({.key = "display_error",
+                           .title = "display %",
+                           .help = "distance of the pixel in the recorded frame from the exact one as a display shows both, root "
+                                   "mean square over its colors, of white",
+                           .kind = CellKind::share,
+                           .digits = ".3g"},
+                          [](Metrics metrics) { return cell_or_unknown(metrics.display_error); }),
             metric_column({.key = "l1_logarithmic",
                            .title = "L1 log z",
                            .help = "mean |T - exact| over the probed range, on a logarithmic axis",
@@ -194,7 +201,9 @@ Page page_of(const Probe& probe) {
         probe.depths.size(), probe.from, probe.to, probe.nearest, probe.farthest, probe.device.name));
     page.emplace_back(Lines{variants_of(best_first(probe))});
     text =
-        "\nL1: mean |T - exact| over the probed range, on a logarithmic and a linear axis. Linf off: largest error, at least 1% "
+        "\ndisplay %: how far the pixel of the recorded frame is from the exact one as a display shows both. The rest is of its "
+        "fragments\nalone.\n"
+        "L1: mean |T - exact| over the probed range, on a logarithmic and a linear axis. Linf off: largest error, at least 1% "
         "of\n"
         "the axis away from every step. E_w: mean error over the fragments, weighted by what each hides. total: T - exact "
         "behind\n"

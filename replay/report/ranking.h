@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace strata {
+#include "replay/measure/exact_below.h"
 
-/// Errors below it, relative or of white, are what rounding in float leaves of an exact blend.
-inline constexpr double exact_below = 1e-4;
+namespace strata {
 
 /// The error that ranks rows, by its name: "display rmse touched".
 struct RankingError {

@@ -1,9 +1,14 @@
 // A probe replays no more of the frame than what decides a pixel's fragments: what it finds is what the whole frame gives.
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "capture_format/frame/frame.h"
 #include "passes/reference/ordering.h"
+#include "passes/reference/textures.h"
 #include "passes/registry.h"
+#include "replay/probe/order.h"
 #include "replay/probe/probe.h"
 #include "tests/support/errors.h"
 #include "tests/support/session.h"
@@ -57,6 +62,35 @@ TEST(ProbedPixel, EveryTechniqueShowsWhatItShowsOfTheFragmentsOfTheWholeFrame) {
         EXPECT_EQ(a.total, b.total) << a.variant;
         EXPECT_EQ(a.notes, b.notes) << a.variant;
     }
+}
+
+/// What the replay displays of the pixel, as sRGB encodes it.
+glm::dvec3 displayed(Session& session, Request request, const std::string& technique, PixelAt at) {
+    request.choices = chosen({technique});
+    request.outputs = {"display"};
+    const glm::dvec4 light = texel(must(session.run(request)).images.at("display"), at.x, at.y);
+    return {linear_to_srgb(light.x), linear_to_srgb(light.y), linear_to_srgb(light.z)};
+}
+
+// Every fragment is a card of its own in a probe: only the frame shows that objects are sorted as wholes, and which layers are
+// kept.
+TEST(ProbedPixel, DisplaysTheErrorOfTheFrameAndRanksByIt) {
+    Session& session = session_of_scenarios();
+    const Request request = on_scenario("smoke_grenade");
+    const PixelAt at{80, 45};
+    const Probe made = must(probe(session, request, at, {.samples = 32}));
+    const glm::dvec3 exact = displayed(session, request, "transparency/sorted_lists", at);
+    for (const ProbeCurve& curve : made.curves) {
+        if (!curve.not_supported.empty()) continue;
+        const double off = glm::length(displayed(session, request, curve.variant, at) - exact) / std::sqrt(3.);
+        EXPECT_NEAR(curve.metrics.display_error.value(), off, 2e-3) << curve.variant;
+    }
+    const auto place_of = [&](std::string_view technique) {
+        const auto order = best_first(made);
+        return std::ranges::find(order, technique, &ProbeCurve::variant) - order.begin();
+    };
+    EXPECT_LE(place_of("transparency/sorted_lists"), 1);
+    EXPECT_GE(place_of("transparency/alpha_blend"), 10) << "exact about fragments, and wrong in the frame";
 }
 
 TEST(ProbedPixel, AnEmptyPixelNamesTheNearestOneWithAFragmentInAnyRow) {

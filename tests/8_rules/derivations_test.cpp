@@ -57,6 +57,7 @@ constexpr std::array shows_references = {
     Exception{"replay/probe/probe", "measures functions of a pixel's fragments"},
     Exception{"replay/probe/probe_frame", "measures functions of a pixel's fragments"},
     Exception{"ui/pixel/pixel_fragments", "shows a pixel's fragments"},
+    Exception{"replay/probe/pixel_in_frame", "compares the pixel as a display shows it"},
     Exception{"replay/report/compare_with_truth", "compares images with the truth of their stage"},
     Exception{"replay/report/pictures", "shows the radiance of the truth and of rows as a display does"},
     Exception{"replay/report/picture_error", "compares the displayed picture with that of the truth"},

@@ -161,7 +161,7 @@ private:
             ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollX | ImGuiTableFlags_NoPadOuterX;
         // A table that scrolls sideways needs its height said: a row each and the head.
         const float rows = static_cast<float>(probe.curves.size() + 2);
-        if (!ImGui::BeginTable("errors", 6, flags, {0, rows * ImGui::GetTextLineHeightWithSpacing() + 14})) return;
+        if (!ImGui::BeginTable("errors", 7, flags, {0, rows * ImGui::GetTextLineHeightWithSpacing() + 14})) return;
         const std::vector<const ProbeCurve*> curves = best_first(probe);
         const Sheet sheet = variants_of(curves);
         ImGui::TableSetupColumn("variant");
@@ -173,7 +173,8 @@ private:
         ImGui::PushTextWrapPos(0);
         widgets.text(
             "meaning",
-            fmt::format("Errors of T from {:.4g} to {:.4g} m, best first. L1: mean over the axis. Off steps: largest, "
+            fmt::format("Best first. Display: the pixel of the frame, of white. Errors of T from {:.4g} to {:.4g} m. L1: mean "
+                        "over the axis. Off steps: largest, "
                         "at least 1% of the axis away from every step. At fragments: mean over fragments, weighted by what "
                         "each hides. Behind: error of T behind all fragments.",
                         probe.from, probe.to),

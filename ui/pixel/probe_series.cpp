@@ -81,6 +81,8 @@ Result<Probe> probe_each(Session& session, Progress& progress, const ProbeQuesti
         if (!next) return next.error();
         made->curves.push_back(std::move(next->curves.front()));
     }
+    if (made)
+        if (const auto added = add_display_errors(session, question.request, *made); !added) return added.error();
     return *std::move(made);
 }
 
