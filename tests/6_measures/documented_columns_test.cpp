@@ -1,5 +1,7 @@
 // The tables of columns in README.md and docs/tables.md are what the columns say of themselves.
+#include <algorithm>
 #include <fstream>
+#include <regex>
 
 #include <gtest/gtest.h>
 
@@ -38,6 +40,31 @@ Report whole_report() {
     return {.time_unit = "transparency/alpha_blend", .rows = {row}};
 }
 
+/// The errors that judges of stages give, as their sources write them: {"name", "unit", ...}.
+std::vector<Metric> metrics_of_judges() {
+    std::vector<Metric> metrics;
+    static const std::regex written("\\{\"([A-Za-z][^\"]*)\", \"([^\"]*)\",");
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(source / "passes")) {
+        if (entry.path().filename() != "judge.cpp") continue;
+        const std::string text = file_text(entry.path());
+        for (std::sregex_iterator found(text.begin(), text.end(), written), none; found != none; ++found)
+            if (std::ranges::count(metrics, (*found)[1].str(), &Metric::name) == 0)
+                metrics.push_back({(*found)[1], (*found)[2], 0});
+    }
+    std::ranges::sort(metrics, {}, &Metric::name);
+    return metrics;
+}
+
+/// The columns of these errors.
+Sheet sheet_of_metrics(const std::vector<Metric>& metrics) {
+    Measurement row{.technique = "transparency/weighted"};
+    row.accuracy.technique_errors = metrics;
+    Sheet sheet = sheet_of(Report{.rows = {row}});
+    std::erase_if(sheet.columns, [&](const Described& is) { return std::ranges::count(metrics, is.key, &Metric::name) == 0; });
+    for (Described& is : sheet.columns) is.shown = in_files;  // JSON has them in lists
+    return sheet;
+}
+
 std::string section(const std::string& heading, const std::string& about, const Sheet& sheet) {
     return fmt::format("## {}\n\n{}\n\n{}\n", heading, about, columns_markdown(sheet, DocumentedBy::key));
 }
@@ -63,6 +90,9 @@ std::string whole_document() {
                 "stage, `baseline_repeats_ms` of the baseline in the same repeats. In CSV the errors are columns by their\n"
                 "names.",
                 sheet_of(whole_report()));
+    text += section("strata report: errors of stages",
+                    "In JSON the `metric` of `technique_error` and `stage_error`; in CSV columns by these names.",
+                    sheet_of_metrics(metrics_of_judges()));
     text +=
         section("strata report of several captures: pooled", "CSV has these rows below those of the captures.", sheet_of(Pool()));
     text += section(
@@ -100,6 +130,14 @@ void expect_documented(const std::filesystem::path& file, const std::string& tex
                   << command_that_accepts() << "\nIt should say:\n"
                   << text;
     if (accepting()) std::ofstream(file, std::ios::binary) << now.substr(0, first) << text << now.substr(last);
+}
+
+TEST(Documents, HaveASentenceForEveryErrorOfAJudge) {
+    const std::vector<Metric> metrics = metrics_of_judges();
+    EXPECT_GE(metrics.size(), 44u);
+    const Sheet sheet = sheet_of_metrics(metrics);
+    EXPECT_EQ(sheet.columns.size(), metrics.size());
+    for (const Described& is : sheet.columns) EXPECT_FALSE(is.help.empty()) << is.key;
 }
 
 TEST(Documents, OfColumnsSayWhatTheColumnsSay) {
