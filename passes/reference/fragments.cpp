@@ -26,6 +26,8 @@ namespace {
 
 // Depths a float cannot tell apart after an interpolation, relative: two ulps.
 constexpr double depth_rounding = 0x1p-22;
+// Device depth of a level triangle changes by no more in a pixel, relative: what doubles leave.
+constexpr double level_slope = 0x1p-40;
 // Smaller coverage and emission than this is not a fragment (docs/algorithms/transparency.md 0.2).
 constexpr double smallest_alpha = 1e-5, smallest_emission = 1e-6;
 
@@ -325,6 +327,7 @@ void FragmentRows::fill(std::uint32_t y, FragmentRow& row) const {
         }
         const std::uint32_t slot = point.x * samples + point.sample;
         fragment->may_be_absent = point.undecided || test != DepthTest::passes;
+        fragment->is_level = point.depth_slope <= point.depth * level_slope;
         if (fragment->may_be_absent) row.undecided[slot] = 1;
         if (!point.covered || test == DepthTest::undecided_fails) {
             if (test == DepthTest::passes) found.beside.emplace_back(point, row.near_misses.size());
@@ -345,9 +348,10 @@ void FragmentRows::fill(std::uint32_t y, FragmentRow& row) const {
 }
 
 bool order_is_undecided(const Fragment& nearer, const Fragment& farther) {
-    const double gap = farther.depth - nearer.depth;
+    const double gap = std::abs(farther.depth - nearer.depth);
     const bool commute = nearer.transmittance == glm::dvec3(1) && farther.transmittance == glm::dvec3(1);
-    return !commute && gap > 0 && gap <= std::abs(farther.depth) * depth_rounding;
+    const bool is_tie = gap == 0 && nearer.is_level && farther.is_level;
+    return !commute && !is_tie && gap <= std::abs(farther.depth) * depth_rounding;
 }
 
 FragmentLists transparent_fragments(const Frame& frame, const ReferenceImage& depth, PixelRows rows, LightAround around,

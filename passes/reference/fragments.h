@@ -42,6 +42,7 @@ struct Fragment {
     std::uint32_t layer = 0;       ///< of interfaces, of which `depth` is made; 0 the world
     std::uint32_t submission = 0;  ///< later submissions are nearer at equal depth; one number per triangle
     bool may_be_absent = false;    ///< rounding decides whether it is there
+    bool is_level = true;          ///< its triangle has one device depth, which every device finds everywhere on it
 };
 
 /// A fragment that is not there, but that rounding may put there.
@@ -166,8 +167,8 @@ private:
     std::vector<FragmentRow> rows_;
 };
 
-/// Whether the result depends on the order of two fragments next to each other, whose depths a float cannot tell apart. Exact
-/// ties are decided by submission; fragments that cover nothing commute.
+/// Whether the result depends on the order of two fragments next to each other, whose depths a float cannot tell apart. Ties of
+/// level triangles are decided by submission; of tilted ones in one plane floats decide. Fragments that cover nothing commute.
 bool order_is_undecided(const Fragment& nearer, const Fragment& farther);
 
 /// Fragments in front of `depth` (device depth per sample, reversed: layer = sample), in submission order, dropped and

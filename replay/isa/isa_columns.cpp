@@ -158,7 +158,7 @@ Sheet isa_steps_of(const IsaOfGpu& gpu) {
          [](const IsaStep& isa_step) { return cell_or_unknown(isa_step.invocations); }},
         {{.key = "counted_by",
           .title = "counted by",
-          .help = "source of the count: dispatch, pixels, counter, device; or unknown",
+          .help = "source of the count: dispatch, pixels, rasterizer (in double), counter, device; or unknown",
           .kind = CellKind::text},
          [](const IsaStep& isa_step) { return isa_step.counted_by; }},
         {{.key = "modeled_us", .title = "modeled us", .help = "modeled microseconds", .shown = in_text, .digits = ".3f"},

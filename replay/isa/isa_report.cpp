@@ -96,6 +96,8 @@ StepInvocations invocations_of(const Counting& counting, std::size_t index) {
         return {pixels_of(counting.plan, planned), "pixels"};
     } else if (std::holds_alternative<DrawWork>(planned.step.work)) {
         if (by_device && counting.device_counts_fragments) return {by_device, "device"};
+        if (index < counting.counts.rasterized.size() && counting.counts.rasterized[index])
+            return {counting.counts.rasterized[index], "rasterizer"};
         if (const auto fragments = counted_fragments(counting, planned)) return {fragments, "counter"};
     }
     return {};

@@ -63,6 +63,8 @@ public:
     };
     Result<TimedRun> time_alone(const Request&);
     Result<StepCounts> count(const Request&);  ///< see count_steps()
+    /// StepCounts::rasterized.
+    Result<std::vector<std::optional<std::uint64_t>>> rasterize_steps(const Request&, const Declaration&);
     /// What one request took in one turn: its steps, and by stage what the host sorted, in milliseconds.
     struct RequestTimes {
         std::vector<StepCost> steps;

@@ -44,7 +44,9 @@ void scale_light(ImageSet& images, double factor) {
     if (factor == 1) return;
     for (auto& [name, image] : images) {
         if (!holds_radiance(name)) continue;
-        for (glm::dvec4& texel : image.texels) texel = glm::dvec4(glm::dvec3(texel) * factor, texel.w);
+        const auto scale = [factor](glm::dvec4& texel) { texel = glm::dvec4(glm::dvec3(texel) * factor, texel.w); };
+        std::ranges::for_each(image.texels, scale);
+        std::ranges::for_each(image.alternatives, scale, &Alternative::value);
         for (glm::dvec3& error : image.standard_error) error *= factor;
     }
 }

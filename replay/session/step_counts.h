@@ -17,6 +17,10 @@ bool draws_once(const Plan&, std::uint32_t scope);
 struct StepCounts {
     /// Of fragment and compute shaders, by step of Session::plan(); nothing where the device does not count.
     std::vector<std::optional<std::uint64_t>> invocations;
+    /// Of fragment shaders, by step; with one sample per pixel, where a step draws all that is transparent at the frame's extent
+    /// and its shader runs behind the test against opaque depth, or without a test. Rasterized in double, for devices whose count
+    /// of fragments is wrong; empty for others.
+    std::vector<std::optional<std::uint64_t>> rasterized;
     std::vector<CounterRecord> counters;  ///< what techniques counted themselves
 };
 

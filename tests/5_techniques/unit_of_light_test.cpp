@@ -19,6 +19,7 @@
 #include "passes/registry.h"
 #include "passes/stages.h"
 #include "passes/technique.h"
+#include "replay/report/picture_error.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -147,6 +148,40 @@ INSTANTIATE_TEST_SUITE_P(Stages, ExhaustiveUnitOfLight,
 
 /// The exposure alone changes the unit that radiance is stored in, not the radiance: of opaque and of transparent surfaces, lit,
 /// unlit and emissive ones, of particles in light volumes, and of what is behind them.
+// What else an undecided texel may be is radiance, too. Powers of two scale without rounding.
+TEST(UnitOfLight, LeavesPictureErrorsAndScalesWhatElseATruthMayBe) {
+    const Frame recorded = of_scenario("glass_and_smoke");
+    constexpr float powers[] = {1, 64, 1.f / 64};
+    std::vector<Frame> frames;
+    for (const float k : powers) frames.push_back(in_unit(recorded, k));
+    const auto session = session_of(frames);
+    const auto request_of = [](std::size_t frame, const char* technique) {
+        return Request{.variant = {.frame = frame}, .choices = chosen({technique})};
+    };
+    std::vector<ImageSet> truths;
+    std::vector<Accuracy> judged;
+    for (std::size_t i = 0; i < std::size(powers); ++i) {
+        const Request request = request_of(i, "transparency/weighted");
+        truths.push_back(must(session->truth(request, Stage::transparency)));
+        judged.push_back(must(session->judge(request, Stage::transparency, Against::truth, &truths[i])));
+        const PictureTruth picture = must(picture_truth(*session, request, Stage::transparency, truths[i]));
+        must(judge_picture(*session, request, picture, judged[i]));
+    }
+    const ReferenceImage& plain = truths[0].at("color");
+    ASSERT_GE(plain.alternatives.size(), 10u);
+    ASSERT_GT(judged[0].undecided_bound.value().value, 0);
+    for (std::size_t i = 1; i < std::size(powers); ++i) {
+        const ReferenceImage& scaled = truths[i].at("color");
+        ASSERT_EQ(scaled.alternatives.size(), plain.alternatives.size());
+        for (std::size_t k = 0; k < plain.alternatives.size(); ++k)
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(scaled.alternatives[k].value[c] / double(powers[i]), plain.alternatives[k].value[c], 1e-5);
+        EXPECT_NEAR(judged[i].undecided_bound->value, judged[0].undecided_bound->value, 1e-5) << powers[i];
+        for (std::size_t m = 0; m < judged[0].touched.size(); ++m)
+            EXPECT_NEAR(judged[i].touched[m].value, judged[0].touched[m].value, 1e-4) << judged[0].touched[m].name << powers[i];
+    }
+}
+
 TEST(UnitOfLight, ExhaustiveOfStorageIsNotThatOfImages) {
     for (const std::string_view scenario : {"night_market", "glass_and_smoke"}) {
         std::vector<Frame> frames(2, of_scenario(scenario));

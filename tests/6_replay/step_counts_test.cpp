@@ -46,6 +46,38 @@ TEST(StepCounts, OfATechniqueThatDrawsOnceAreItsOwn) {
     EXPECT_EQ(fragments(counts.counters), fragments(must(session.run(request)).counters));
 }
 
+/// Fragments of every step that draws what is transparent, by the rasterizer in double.
+std::vector<std::uint64_t> rasterized(Session& session, const Request& request) {
+    std::vector<std::uint64_t> all;
+    for (const auto& count : must(count_steps(session, request)).rasterized)
+        if (count) all.push_back(*count);
+    return all;
+}
+
+// The counter of sorted lists is an atomic of the device. Panes cover every fragment of theirs, smoke does not: the corners of
+// its particles run shaders, too, and are counted by none.
+TEST(StepCounts, OfEveryDrawOfWhatIsTransparentAreTheRasterizersWhereADeviceCannotCount) {
+    Session& session = session_of_scenarios();
+    if (!session.device().software) GTEST_SKIP() << "this device counts fragments";
+    const auto counter = [&](const std::string& scenario) {
+        return counted(must(session.run(on(scenario, "transparency/sorted_lists"))), "fragments");
+    };
+    const std::pair<const char*, std::size_t> steps[] = {{"alpha_blend", 1}, {"weighted", 1}, {"sorted_lists", 2},
+                                                         {"stochastic", 2},  {"moments", 2},  {"exact_function", 3}};
+    const std::uint64_t of_panes = counter("three_panes"), of_smoke = counter("smoke_grenade");
+    for (const auto& [technique, count] : steps) {
+        const std::string name = std::string("transparency/") + technique;
+        EXPECT_EQ(rasterized(session, on("three_panes", name)), std::vector(count, of_panes)) << name;
+        const auto smoke = rasterized(session, on("smoke_grenade", name));
+        EXPECT_EQ(smoke.size(), count) << name;
+        for (const std::uint64_t fragments : smoke) {
+            EXPECT_GT(fragments, of_smoke + of_smoke / 20) << name;
+            EXPECT_LT(fragments, 2 * of_smoke) << name;
+        }
+    }
+    EXPECT_TRUE(rasterized(session, on("three_panes", "transparency/depth_peeling")).empty()) << "tested against its own depth";
+}
+
 TEST(StepCounts, AreKnownWithoutTheShadersThatTheyAreOf) {
     // On a device of its own, which has no pipelines of other tests.
     const auto session = must(Session::open(scenario_frames("agents_hq"), {.validation = true}));

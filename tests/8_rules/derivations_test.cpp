@@ -61,6 +61,7 @@ constexpr std::array shows_references = {
     Exception{"replay/report/compare_with_truth", "compares images with the truth of their stage"},
     Exception{"replay/report/pictures", "shows the radiance of the truth and of rows as a display does"},
     Exception{"replay/report/picture_error", "compares the displayed picture with that of the truth"},
+    Exception{"replay/session/step_counts", "counts fragments in double, where a device's count is wrong"},
     Exception{"replay/session/judgment", "leaves out samples whose coverage hangs on the steps of the device"},
 };
 
