@@ -26,7 +26,7 @@ namespace {
 
 // Depths a float cannot tell apart after an interpolation, relative: two ulps.
 constexpr double depth_rounding = 0x1p-22;
-// Device depth of a level triangle changes by no more in a pixel, relative: what doubles leave.
+// Device depth of a level triangle changes by no more in a pixel, relative, as doubles round.
 constexpr double level_slope = 0x1p-40;
 // Smaller coverage and emission than this is not a fragment (docs/algorithms/transparency.md 0.2).
 constexpr double smallest_alpha = 1e-5, smallest_emission = 1e-6;

@@ -174,7 +174,7 @@ bool order_is_undecided(const Fragment& nearer, const Fragment& farther);
 /// Fragments in front of `depth` (device depth per sample, reversed: layer = sample), in submission order, dropped and
 /// sanitized as docs/algorithms/transparency.md 0.2 says, shaded at the sample. Undecided: coverage, the depth test, or the order
 /// of two that do not commute hangs on float rounding.
-/// Lists of other rows than those given stay empty. `draws`: of these alone, in this order; empty: of transparent_draws().
+/// Lists of other rows than those given stay empty. `draws` are rasterized alone, in their order; empty: transparent_draws().
 FragmentLists transparent_fragments(const Frame&, const ReferenceImage& depth, PixelRows = {}, LightAround = {},
                                     std::span<const std::uint32_t> draws = {});
 

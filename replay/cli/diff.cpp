@@ -47,7 +47,7 @@ struct DiffArguments {
     ErrorLimits limits;
     std::vector<std::string> ignored;
     std::filesystem::path junit, output;  ///< output: a folder for pictures, or a page
-    std::string error_at, stage;          ///< of the truth that takes the place of A
+    std::string error_at, stage;          ///< the truth in place of A
     const CLI::App* app = nullptr;        ///< what was given
 };
 
@@ -206,8 +206,8 @@ Result<Stage> stage_of_truth(const DiffArguments& options, const Request& reques
         if (change.technique) named.insert(change.technique->stage);
     if (named.size() == 1) return *named.begin();
     return fail(Fault::usage, "diff.choose_stage",
-                "--error-at {at} compares with the truth of one stage, and --use and --set name {stages}; choose it with --stage",
-                options.error_at, named.empty() ? "none" : std::to_string(named.size()));
+                "--error-at {at} needs one stage; --use and --set name {stages}. Choose one with --stage", options.error_at,
+                named.empty() ? "none" : std::to_string(named.size()));
 }
 
 /// One capture, and in place of A the truth of a stage.
@@ -437,6 +437,10 @@ Result<void> check_options_beside_truth(const DiffArguments& options) {
 /// What is said of replaying where one side or both are images, and what is missing where there is one file.
 Result<void> check_options(const DiffArguments& options) {
     const CLI::App& app = *options.app;
+    if (options.limits.flip_mean && !options.limits.limit)
+        if (const auto fits = check_not_given(app, {"--percent"}, "with --flip-limit and without --limit FLIP alone decides");
+            !fits)
+            return fits;
     if (!options.error_at.empty()) return check_options_beside_truth(options);
     const auto is_image = [](const std::filesystem::path& file) { return !file.empty() && kind_of(file) != FileKind::capture; };
     if (options.b.file.empty() && is_image(options.a.file))
@@ -445,10 +449,6 @@ Result<void> check_options(const DiffArguments& options) {
     if (options.b.file.empty() && !has_a_side_b(options))
         return fail(Fault::usage, "diff.nothing_to_compare",
                     "there is nothing to compare A with: name a second file, or options of B (--use, --set, --gpu-b)");
-    if (options.limits.flip_mean && !options.limits.limit)
-        if (const auto fits = check_not_given(app, {"--percent"}, "with --flip-limit and without --limit FLIP alone decides");
-            !fits)
-            return fits;
     const bool a_is_image = is_image(options.a.file), b_is_image = is_image(options.b.file);
     if (b_is_image)
         if (const auto fits = check_not_given(app, {"--use", "--set", "--gpu-b"}, "B is an image and not replayed"); !fits)

@@ -31,7 +31,7 @@ struct IsaStep {
     std::string name, label;  ///< the label is its pipeline's
     std::size_t pipeline = 0;
     std::optional<std::uint64_t> invocations;
-    std::string counted_by;  ///< "dispatch", "pixels", "counter", "device", or "unknown"
+    std::string counted_by;  ///< "dispatch", "pixels", "rasterizer", "counter", "device", or "unknown"
     std::optional<double> modeled_ms;
 };
 

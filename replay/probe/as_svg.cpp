@@ -229,7 +229,7 @@ private:
             drawing_.text({left + 38, y + 4}, variant, Anchor::start, std::clamp(246 / (.62 * double(variant.size())), 6., 12.));
             drawing_.text({left + 38, y + 18}, has_curve ? figures_of(curve.metrics) : curve.not_supported, Anchor::start, 10);
         }
-        drawing_.text({left, y + 42}, "off: the pixel of the frame, as a display shows it, of white", Anchor::start, 10);
+        drawing_.text({left, y + 42}, "off: the pixel of the frame as displayed, of white", Anchor::start, 10);
         drawing_.text({left, y + 56}, "L1: mean error over the depth axis", Anchor::start, 10);
         drawing_.text({left, y + 70}, "E_w: over fragments, weighted by what each hides", Anchor::start, 10);
     }

@@ -13,13 +13,14 @@
 namespace strata {
 
 /// Curves by the error of what a display shows of the pixel, least first, those that are exact by their error over the logarithm
-/// of depth; those without a curve last.
+/// of depth; those without an error behind them, those without a curve last.
 inline std::vector<const ProbeCurve*> best_first(const Probe& probe) {
     std::vector<const ProbeCurve*> order;
     for (const ProbeCurve& curve : probe.curves) order.push_back(&curve);
     std::ranges::stable_sort(order, std::ranges::less{}, [](const ProbeCurve* curve) {
         const double shown = curve->metrics.display_error.value_or(0);
-        return std::tuple(!curve->not_supported.empty(), shown > exact_below ? shown : 0, curve->metrics.l1_logarithmic);
+        return std::tuple(!curve->not_supported.empty(), !curve->metrics.display_error, shown > exact_below ? shown : 0,
+                          curve->metrics.l1_logarithmic);
     });
     return order;
 }

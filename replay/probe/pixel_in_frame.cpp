@@ -10,54 +10,51 @@
 #include "passes/technique.h"
 #include "replay/probe/probe.h"
 #include "replay/session/choice_text.h"
+#include "replay/session/stand_in.h"
 
 namespace strata {
 namespace {
 
-Request with(Request request, const Technique& technique) {
-    request.choices.drop(Stage::transparency);
-    request.choices.use(technique);
-    return request;
-}
-
-/// The texel as an image of its own; nothing where the device lacks what the technique needs.
-Result<std::optional<ReferenceImage>> texel_of(Session& session, const Request& request, PixelAt at) {
+/// The pixel with all its samples, as an image of its own; nothing where the device lacks what the technique needs.
+Result<std::optional<ReferenceImage>> pixel_of(Session& session, const Request& request, PixelAt at) {
     const auto images = session.stage_images(request, Stage::transparency);
     if (!images && images.error().fault == Fault::device_lacks) return std::optional<ReferenceImage>();
     if (!images) return images.error();
-    return std::optional(ReferenceImage(1, 1, 1, images->at("color").at(at.x, at.y, at.sample)));
+    const ReferenceImage& color = images->at("color");
+    ReferenceImage pixel(1, 1, color.layers);
+    for (std::uint32_t layer = 0; layer < color.layers; ++layer) pixel.at(0, 0, layer) = color.at(at.x, at.y, layer);
+    return std::optional(std::move(pixel));
 }
 
-/// By the first technique that is exact and can do the frame.
-Result<std::optional<ReferenceImage>> exact_texel(Session& session, const Request& request, const Features& features,
-                                                  PixelAt at) {
-    for (const Technique* technique : techniques_of(Stage::transparency))
-        if (technique->abilities.stands_in_for_truth && !unsupported(*technique, features))
-            return texel_of(session, with(request, *technique), at);
-    return std::optional<ReferenceImage>();
-}
+bool lacks_display_error(const ProbeCurve& curve) { return !curve.metrics.display_error && curve.not_supported.empty(); }
 
 }  // namespace
 
 Result<void> add_display_errors(Session& session, const Request& request, Probe& probe) {
+    if (std::ranges::none_of(probe.curves, lacks_display_error)) return {};
     const auto frame = session.frame(request.variant.frame);
     if (!frame) return frame.error();
     const auto planned = session.plan(request);
     if (!planned) return planned.error();
-    const auto exact = exact_texel(session, request, planned->features, probe.at);
+    const auto exact_request = stand_in(session, Stage::transparency, request);
+    if (!exact_request) return exact_request.error();
+    if (!*exact_request) return {};
+    const auto exact = pixel_of(session, **exact_request, probe.at);
     if (!exact) return exact.error();
     if (!*exact) return {};
-    const auto shown = [&](const ReferenceImage& texel) {
-        return tone_mapped(texel, double(frame->view.exposure), double(frame->film.white));
+    const auto shown = [&](const ReferenceImage& pixel) {
+        return tone_mapped(pixel, double(frame->view.exposure), double(frame->film.white));
     };
     for (ProbeCurve& curve : probe.curves) {
-        if (curve.metrics.display_error || !curve.not_supported.empty()) continue;
+        if (!lacks_display_error(curve)) continue;
         auto parsed = parse_variant(Stage::transparency, curve.variant);
         if (!parsed) return parsed.error();
         if (unsupported(*parsed->technique, planned->features)) continue;
-        Request variant = with(request, *parsed->technique);
+        Request variant = request;
+        variant.choices.drop(Stage::transparency);
+        variant.choices.use(*parsed->technique);
         std::ranges::move(parsed->settings, std::back_inserter(variant.choices.settings));
-        const auto got = texel_of(session, variant, probe.at);
+        const auto got = pixel_of(session, variant, probe.at);
         if (!got) return got.error();
         if (*got) curve.metrics.display_error = display_error(shown(**got), shown(**exact)).rmse;
     }

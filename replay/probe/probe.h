@@ -36,7 +36,7 @@ struct ProbeMetrics {
     std::optional<double> worst_off_steps;
     double fragment_weighted = 0;  ///< sum of (1 - t) |T^ - T| over the fragments / sum of 1 - t
     double total = 0;              ///< T^ - T behind everything
-    /// Of white, root mean square: the pixel of the recorded frame by the technique, beside the exact one (add_display_errors).
+    /// Root mean square of the distance of the recorded frame's pixel from the exact one, of white (add_display_errors).
     std::optional<double> display_error = {};
 };
 

@@ -201,8 +201,9 @@ Page page_of(const Probe& probe) {
         probe.depths.size(), probe.from, probe.to, probe.nearest, probe.farthest, probe.device.name));
     page.emplace_back(Lines{variants_of(best_first(probe))});
     text =
-        "\ndisplay %: how far the pixel of the recorded frame is from the exact one as a display shows both. The rest is of its "
-        "fragments\nalone.\n"
+        "\ndisplay %: distance of the recorded frame's pixel from the exact one as a display shows both. The other figures "
+        "measure "
+        "the\nfragments alone.\n"
         "L1: mean |T - exact| over the probed range, on a logarithmic and a linear axis. Linf off: largest error, at least 1% "
         "of\n"
         "the axis away from every step. E_w: mean error over the fragments, weighted by what each hides. total: T - exact "

@@ -19,8 +19,6 @@
 namespace strata {
 namespace {
 
-constexpr const char* picture = "display";
-
 HostImage in_floats(const ReferenceImage& image, Content content) {
     const std::uint32_t channels = image.channels == 1 ? 1 : image.channels == 2 ? 2 : 4;
     const Format format = content == Content::depth ? Format::d32f
@@ -57,21 +55,21 @@ Beside beside(const ReferenceImage& got, ReferenceImage truth, Content content) 
     return made;
 }
 
-bool same_extent(const ReferenceImage& a, const ReferenceImage& b) {
-    return a.width == b.width && a.height == b.height && a.layers == b.layers;
-}
-
 Result<FrameComparison> compare_each(PassComparison pass, const ImageSet& truth, const ImageSet& got, const ErrorLimits& limits,
                                      const SeeImages& see) {
     FrameComparison frame;
     std::size_t undecided = 0;
     for (const auto& [name, wanted] : truth) {
+        if (!limits.asks_for(name)) continue;
         const auto result = got.find(name);
-        if (result == got.end() || !limits.asks_for(name)) continue;
         const Content content = find_frame_image(name)->content;
-        if (content == Content::coded || !same_extent(wanted, result->second)) {
-            pass.images.push_back(
-                {.image = name, .verdict = Verdict::not_compared, .reason = "its layout is the technique's own"});
+        const bool is_coded = content == Content::coded;  // in a layout of the technique's own
+        if (is_coded || result == got.end() || !same_extent(wanted, result->second)) {
+            pass.images.push_back({.image = name,
+                                   .verdict = is_coded ? Verdict::not_compared : Verdict::over,
+                                   .reason = is_coded              ? "its layout is the technique's own"
+                                             : result == got.end() ? "only the truth has it"
+                                                                   : "the truth has another extent"});
             continue;
         }
         const Beside both = beside(result->second, wanted, content);
@@ -83,18 +81,18 @@ Result<FrameComparison> compare_each(PassComparison pass, const ImageSet& truth,
         pass.images.push_back(*std::move(made));
     }
     if (undecided > 0)
-        frame.notes.push_back(fmt::format("{} left out: rounding decides the truth there", plural(undecided, "texel")));
+        frame.notes.push_back(fmt::format("{} count as equal: rounding decides the truth there", plural(undecided, "texel")));
     add_pass(frame, std::move(pass));
     return frame;
 }
 
-/// What the stage gives, or the picture.
+/// Images of the stage, or the picture.
 Result<ImageSet> images_of(const RunToCompare& run, Stage stage, ErrorAt at) {
     if (at == ErrorAt::stage) return run.session.stage_images(run.request, stage);
     Request request = run.request;
-    request.outputs = {picture};
+    request.outputs = {picture_image};
     return run.session.run(request).and_then([](const Run& made) {
-        return Result<ImageSet>(ImageSet{{picture, in_double(made.images.at(picture))}});
+        return Result<ImageSet>(ImageSet{{picture_image, in_double(made.images.at(picture_image))}});
     });
 }
 
@@ -122,10 +120,10 @@ Result<std::string> error_text(const RunToCompare& run, Stage stage, const RowTr
 
 Result<TruthComparison> compare_with_truth(const RunToCompare& run, Stage stage, ErrorAt at, const ErrorLimits& limits,
                                            const SeeImages& see) {
-    if (at == ErrorAt::stage && !holds_radiance(info(stage).outputs.front()) && !makes_picture(stage))
+    if (const auto has_some = check_has_techniques(stage); !has_some) return has_some.error();
+    if (at == ErrorAt::stage && !makes_light(stage))
         return fail(Fault::usage, "diff.stage_makes_no_light",
-                    "{stage} makes no light: which of its texels anybody reads shows in the picture; pass --error-at picture",
-                    name(stage));
+                    "{stage} makes no light, so its errors are measured in the picture; pass --error-at picture", name(stage));
     const auto frame = run.session.frame(run.request.variant.frame);
     if (!frame) return frame.error();
     const Variant row{.request = run.request};
@@ -136,9 +134,9 @@ Result<TruthComparison> compare_with_truth(const RunToCompare& run, Stage stage,
     if (!choices) return choices.error();
     const auto images = images_of(run, stage, at);
     if (!images) return images.error();
-    auto compared =
-        compare_each({.label = std::string(name(stage)), .choice_a = "the truth", .choice_b = choice_line(choices->at(stage))},
-                     at == ErrorAt::picture ? ImageSet{{picture, truth.picture->display}} : truth.truth, *images, limits, see);
+    auto compared = compare_each(
+        {.label = std::string(name(stage)), .choice_a = "the truth", .choice_b = choice_line(choices->at(stage))},
+        at == ErrorAt::picture ? ImageSet{{picture_image, truth.picture->display}} : truth.truth, *images, limits, see);
     if (!compared) return compared.error();
     compared->frame = run.request.variant.frame;
     const auto error = error_text(run, stage, truth);

@@ -14,6 +14,7 @@
 #include "passes/stages.h"
 #include "passes/technique.h"
 #include "replay/report/row_truth.h"
+#include "replay/session/stand_in.h"
 
 namespace strata {
 namespace {
@@ -37,21 +38,6 @@ std::optional<glm::dvec2> depth_range(const Frame& frame, std::span<const std::u
         for (const glm::vec3& point : frame.meshes[draw.mesh].positions) add(glm::dvec3(draw.to_world * glm::dvec4(point, 1)));
     }
     return range.x <= range.y ? std::optional(range) : std::nullopt;
-}
-
-/// The first technique that stands in for the stage's truth and can do the frame; nothing where none does.
-Result<std::optional<Request>> stand_in(Session& session, Stage stage, const Request& base) {
-    const auto planned = session.plan(base);
-    if (!planned) return planned.error();
-    for (const Technique* technique : techniques_of(stage)) {
-        if (!technique->abilities.stands_in_for_truth || unsupported(*technique, planned->features)) continue;
-        Request request = base;
-        request.choices.use(*technique);
-        const auto run = session.run(request);
-        if (!run) return run.error();
-        if (notes_no_limitation(*run, *technique)) return std::optional(std::move(request));
-    }
-    return std::optional<Request>();
 }
 
 /// The rows' truths, each once: the request that asks for it, and per row which one it is.

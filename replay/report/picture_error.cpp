@@ -16,11 +16,9 @@
 namespace strata {
 namespace {
 
-constexpr const char* picture = "display";
-
 Result<ReferenceImage> picture_from(Session& session, Request request, Stage stage, const ImageSet& outputs) {
-    request.outputs = {picture};
-    return session.run_from(request, stage, outputs).and_then([](auto& run) { return in_double(run.images.at(picture)); });
+    request.outputs = {picture_image};
+    return session.run_from(request, stage, outputs).and_then([](auto& run) { return in_double(run.images.at(picture_image)); });
 }
 
 /// Images of the shapes of the truth, all of one value.
@@ -124,7 +122,12 @@ std::vector<Metric> metrics_of(const DisplayError& error, const ReferenceImage& 
 
 }  // namespace
 
-bool makes_picture(Stage stage) { return std::ranges::count(info(stage).outputs, picture) > 0; }
+bool makes_picture(Stage stage) { return std::ranges::count(info(stage).outputs, picture_image) > 0; }
+
+bool makes_light(Stage stage) {
+    const auto& outputs = info(stage).outputs;
+    return makes_picture(stage) || (!outputs.empty() && holds_radiance(outputs.front()));
+}
 
 Result<PictureTruth> picture_truth(Session& session, const Request& request, Stage stage, const ImageSet& truth) {
     if (makes_picture(stage))
@@ -143,10 +146,10 @@ Result<PictureTruth> picture_truth(Session& session, const Request& request, Sta
 }
 
 Result<void> judge_picture(Session& session, Request request, const PictureTruth& truth, Accuracy& accuracy) {
-    request.outputs = {picture};
+    request.outputs = {picture_image};
     const auto run = session.run(request);
     if (!run) return run.error();
-    const HostImage& display = run->images.at(picture);
+    const HostImage& display = run->images.at(picture_image);
     const ReferenceImage got = in_double(display);
     ReferenceImage wanted = truth.display, touched = truth.touched;
     accuracy.undecided_share = undecided_share(wanted);

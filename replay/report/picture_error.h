@@ -14,8 +14,13 @@ struct PictureTruth {
     double touched_share = 1;
 };
 
+/// The image that a display shows.
+inline constexpr const char* picture_image = "display";
+
 /// Whether the picture is one of the stage's own outputs.
 bool makes_picture(Stage);
+/// Whether errors of the stage's first output are errors of light: of radiance or of the picture.
+bool makes_light(Stage);
 
 /// Runs the request from the stage's truth, and from others that tell what it can change. Fails where the truth cannot take the
 /// place of the stage's outputs (Session::run_from), and for a stage that makes the picture itself.

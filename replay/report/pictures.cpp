@@ -20,7 +20,6 @@
 namespace strata {
 namespace {
 
-constexpr const char* frame_picture = "display";
 // Up to so many rows each has the plot of its worst pixel; of more those that one looks at.
 constexpr std::size_t few_rows = 20;
 
@@ -125,18 +124,18 @@ public:
     Result<ShownPicture> of_truth(const Request& base, const RowTruth& truth) const {
         if (truth.picture) return shown_picture(truth.picture->display);
         if (!radiance_.empty()) return shown(truth.truth.find(radiance_)->second);
-        if (makes_picture(stage_)) return shown_picture(truth.truth.find(frame_picture)->second);
+        if (makes_picture(stage_)) return shown_picture(truth.truth.find(picture_image)->second);
         return picture_of(session_->run_from(as_picture(base), stage_, truth.truth));
     }
 
 private:
     static Request as_picture(Request request) {
-        request.outputs = {frame_picture};
+        request.outputs = {picture_image};
         return request;
     }
     static Result<ShownPicture> picture_of(const Result<Run>& run) {
         if (!run) return run.error();
-        return shown_picture(in_double(run->images.at(frame_picture)));
+        return shown_picture(in_double(run->images.at(picture_image)));
     }
     ShownPicture shown(const ReferenceImage& radiance) const {
         return shown_picture(tone_mapped(radiance, double(frame_->view.exposure), double(frame_->film.white)));

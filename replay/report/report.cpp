@@ -203,8 +203,7 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
     const auto tell = [&](std::string_view what, double done) {
         if (progress) progress(what, done);
     };
-    if (techniques_of(wanted.stage).empty())
-        return fail(Fault::usage, "stage.no_technique", "the stage {stage} has no technique yet", name(wanted.stage));
+    if (const auto has_some = check_has_techniques(wanted.stage); !has_some) return has_some.error();
     auto all = variants(wanted);
     if (!all) return all.error();
     put_unit_first(*all);

@@ -8,6 +8,7 @@
 #include "passes/technique.h"
 #include "replay/plural.h"
 #include "replay/session/light_unit.h"
+#include "replay/session/stand_in.h"
 #include "replay/tables/table.h"
 
 namespace strata {
@@ -91,11 +92,7 @@ Result<RowTruth> find_row_truth(Session& session, const ReportRequest& wanted, c
 }
 
 /// The default of --error-at: a stage without radiance is judged by what its errors do to the picture.
-ErrorAt default_error_at(Stage stage) {
-    const StageInfo& of = info(stage);
-    const bool makes_light = holds_radiance(of.outputs.front()) || makes_picture(stage);
-    return makes_light ? ErrorAt::stage : ErrorAt::picture;
-}
+ErrorAt default_error_at(Stage stage) { return makes_light(stage) ? ErrorAt::stage : ErrorAt::picture; }
 
 /// The pictures of all truths.
 Result<void> add_pictures_of(Session& session, const ReportRequest& wanted, RowTruths& found) {
@@ -144,11 +141,6 @@ Result<RowTruths> find_row_truths(Session& session, const ReportRequest& wanted,
         found.no_picture = added.error().sentence;
     }
     return found;
-}
-
-bool notes_no_limitation(const Run& run, const Technique& technique) {
-    const std::string begin = fmt::format("{}: ", technique.name);
-    return std::ranges::none_of(run.notes, [&](const std::string& note) { return note.starts_with(begin); });
 }
 
 Result<Accuracy> measure_accuracy(Session& session, const Variant& variant, Stage stage, const RowTruth& row_truth) {

@@ -33,10 +33,6 @@ struct RowTruths {
 };
 Result<RowTruths> find_row_truths(Session&, const ReportRequest&, std::span<const Variant>, const Frame&);
 
-/// Whether a run's notes say nothing of the technique: one that stands in for the truth does not where it names a limitation of
-/// its own.
-bool notes_no_limitation(const Run&, const Technique&);
-
 /// A row's errors against it, and against its technique's model.
 Result<Accuracy> measure_accuracy(Session&, const Variant&, Stage, const RowTruth&);
 

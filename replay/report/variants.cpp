@@ -104,6 +104,11 @@ Result<Variant> variant_of(const Technique& technique, std::string_view way, con
     return at_settings(defaults, is_own ? way : way.substr(first.size()));
 }
 
+Result<void> check_has_techniques(Stage stage) {
+    if (!techniques_of(stage).empty()) return {};
+    return fail(Fault::usage, "stage.no_technique", "the stage {stage} has no technique yet", name(stage));
+}
+
 Result<std::vector<Variant>> variants(const ReportRequest& wanted) {
     const auto techniques = techniques_of(wanted.stage);
     for (const Sweep& sweep : wanted.sweeps)

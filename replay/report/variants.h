@@ -28,6 +28,9 @@ std::string short_label(const Row& row) {
 /// "key=value ..." of the technique, or "name key=value ..." of another of its stage, which may not be on the list any more.
 Result<Variant> variant_of(const Technique&, std::string_view way, const Request& base);
 
+/// Fails (usage) for a stage without techniques.
+Result<void> check_has_techniques(Stage);
+
 /// Every technique of the stage at its defaults and at each of its variants; or, with sweeps, with every combination of those
 /// whose keys it has. Fails for a key that no technique has.
 Result<std::vector<Variant>> variants(const ReportRequest&);

@@ -81,10 +81,6 @@ std::string extent_text(const ReferenceImage& image) {
     return fmt::format("{} x {} with {}", image.width, image.height, plural(image.layers, "layer"));
 }
 
-bool same_extent(const ReferenceImage& a, const ReferenceImage& b) {
-    return a.width == b.width && a.height == b.height && a.layers == b.layers && a.texels.size() == b.texels.size();
-}
-
 /// What only its own technique can read is compared with nothing.
 bool is_coded(std::string_view image) {
     const FrameImageRow* row = find_frame_image(image);
@@ -282,6 +278,10 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
 }
 
 }  // namespace
+
+bool same_extent(const ReferenceImage& a, const ReferenceImage& b) {
+    return a.width == b.width && a.height == b.height && a.layers == b.layers && a.texels.size() == b.texels.size();
+}
 
 Footing footing_of(const DisplayError& error) {
     return {.pixels = error.pixels, .clipped_share = error.clipped_share, .concentration = error.concentration};

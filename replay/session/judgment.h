@@ -34,6 +34,8 @@ Accuracy judge_stage(const JudgedStage&);
 /// truths do. There images of the frame's extent become undecided.
 void leave_out_sides(const Frame&, std::uint32_t device_snap_steps, ImageSet&);
 
+bool same_extent(const ReferenceImage&, const ReferenceImage&);
+
 /// Leaves out the texels whose color is that of an image of the same extent before (black, if null). The share of all texels
 /// that differ, undecided ones among them; nothing where no decided one does.
 std::optional<double> keep_touched(ReferenceImage&, const ReferenceImage* before);

@@ -228,8 +228,7 @@ public:
     /// Which pixels show a draw of the frame (an emitter after the draws), row by row from the top: the draw in double, held
     /// against the depth the request's techniques leave.
     virtual Result<std::vector<Cover>> draw_cover(const Request&, std::uint32_t draw) = 0;
-    /// What the stage's technique (its last pass) gives, as it leaves it, in double. Request::outputs are of the frame's end:
-    /// later stages draw over what they share with it.
+    /// Images that the stage's last pass writes, in double, before later stages draw over them, as they do in Request::outputs.
     virtual Result<ImageSet> stage_images(const Request&, Stage) = 0;
     /// The stage's truth on what the earlier stages gave, in double: seconds for a small frame.
     virtual Result<ImageSet> truth(const Request&, Stage) = 0;

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <map>
 
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
 #include "passes/graph/shader.h"
 #include "passes/reference/fragments.h"
 #include "passes/technique.h"
@@ -48,7 +51,7 @@ std::uint64_t invocations(const PlannedStep& planned, std::span<const std::byte>
     return std::uint64_t{groups[0]} * groups[1] * groups[2] * threads.width * threads.height * threads.depth;
 }
 
-/// Whether the fragment shader runs for those fragments alone that pass the depth test (layout(early_fragment_tests)).
+/// True where the fragment shader runs behind the depth test: layout(early_fragment_tests).
 bool tests_early(const ShaderLibrary& shaders, const Step& step) {
     constexpr std::uint32_t execution_mode = 16, early_fragment_tests = 9;  // of SPIR-V
     const Shader* fragment = step.shaders.empty() ? nullptr : shaders.find(step.shaders.back());
@@ -67,7 +70,7 @@ bool is_of_extent(const Plan& plan, const Step& step, const Extent& extent) {
     return !step.attachments.empty() && plan.images[step.attachments.front().image.id].shape.extent == extent;
 }
 
-/// Whether a list has all that is transparent, in whatever order.
+/// True for a list of all that is transparent, in whatever order.
 bool is_whole(const DrawList& list, const FrameImages& images) {
     return std::ranges::any_of(
         std::array{images.transparent, images.numbered, images.separate, images.back_to_front}, [&](const DrawList& whole) {
@@ -80,7 +83,10 @@ struct RowPoints {
     std::uint64_t covered = 0, before_opaque = 0;
 };
 
-std::vector<RowPoints> transparent_points(const Frame& frame, const ReferenceImage& depth) {
+/// Single-sided surfaces have backs where the device does not cull them: shaders run there and discard.
+std::vector<RowPoints> transparent_points(Frame frame, Cull cull, const ReferenceImage& depth) {
+    if (cull == Cull::none)
+        for (Material& material : frame.materials) material.double_sided = true;
     std::vector<RowPoints> rows(frame.view.height);
     rasterize(frame, transparent_draws(frame), {}, [&](const RasterPoint& point) {
         RowPoints& row = rows[point.y];
@@ -94,6 +100,7 @@ std::vector<RowPoints> transparent_points(const Frame& frame, const ReferenceIma
 struct DrawnStep {
     std::size_t step = 0;
     Rows rows;
+    Cull cull = Cull::none;
     std::uint64_t RowPoints::*counts = nullptr;
 };
 
@@ -128,12 +135,14 @@ Result<std::vector<std::optional<std::uint64_t>>> DeviceSession::rasterize_steps
     for (std::size_t i = 0; i < plan.steps.size(); ++i) {
         const Step& step = plan.steps[i].step;
         const auto* draw = std::get_if<DrawWork>(&step.work);
-        if (!draw || draw->count || !is_whole(draw->list, d.images) || !is_of_extent(plan, step, d.images.extent)) continue;
+        if (!draw || draw->count || draw->at_equal_depth || !is_whole(draw->list, d.images) ||
+            !is_of_extent(plan, step, d.images.extent))
+            continue;
         const auto depth = std::ranges::find_if(
             step.attachments, [&](const Attachment& each) { return plan.images[each.image.id].shape.format == Format::d32f; });
         const bool is_tested = depth != step.attachments.end();
         if (is_tested && (depth->image.id != d.images.depth.id || !tests_early(shaders(), step))) continue;
-        drawn.push_back({i, draw->rows.value_or(Rows{0, d.images.extent.height}),
+        drawn.push_back({i, draw->rows.value_or(Rows{0, d.images.extent.height}), draw->cull,
                          is_tested ? &RowPoints::before_opaque : &RowPoints::covered});
     }
     if (drawn.empty() || d.images.samples != 1) return counts;
@@ -144,9 +153,12 @@ Result<std::vector<std::optional<std::uint64_t>>> DeviceSession::rasterize_steps
     if (!run) return run.error();
     const View& view = loaded_->frame.view;
     const auto depth = run->images.find("depth_layers");
-    const std::vector<RowPoints> rows = transparent_points(
-        loaded_->frame, depth == run->images.end() ? ReferenceImage(view.width, view.height) : in_double(depth->second));
-    for (const DrawnStep& each : drawn) counts[each.step] = points_of(each, rows);
+    const ReferenceImage opaque = depth == run->images.end() ? ReferenceImage(view.width, view.height) : in_double(depth->second);
+    std::map<Cull, std::vector<RowPoints>> rows;
+    for (const DrawnStep& each : drawn) {
+        if (!rows.contains(each.cull)) rows.emplace(each.cull, transparent_points(loaded_->frame, each.cull, opaque));
+        counts[each.step] = points_of(each, rows.at(each.cull));
+    }
     return counts;
 }
 

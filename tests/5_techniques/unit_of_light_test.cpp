@@ -146,9 +146,7 @@ TEST_P(ExhaustiveUnitOfLight, LeavesEveryError) {
 INSTANTIATE_TEST_SUITE_P(Stages, ExhaustiveUnitOfLight,
                          testing::Combine(testing::ValuesIn(bright_scenarios), testing::Range<std::size_t>(0, stages().size())));
 
-/// The exposure alone changes the unit that radiance is stored in, not the radiance: of opaque and of transparent surfaces, lit,
-/// unlit and emissive ones, of particles in light volumes, and of what is behind them.
-// What else an undecided texel may be is radiance, too. Powers of two scale without rounding.
+// Alternatives of undecided texels are radiance, too. Powers of two scale without rounding.
 TEST(UnitOfLight, LeavesPictureErrorsAndScalesWhatElseATruthMayBe) {
     const Frame recorded = of_scenario("glass_and_smoke");
     constexpr float powers[] = {1, 64, 1.f / 64};
@@ -182,6 +180,8 @@ TEST(UnitOfLight, LeavesPictureErrorsAndScalesWhatElseATruthMayBe) {
     }
 }
 
+/// The exposure alone changes the unit that radiance is stored in, not the radiance: of opaque and of transparent surfaces, lit,
+/// unlit and emissive ones, of particles in light volumes, and of what is behind them.
 TEST(UnitOfLight, ExhaustiveOfStorageIsNotThatOfImages) {
     for (const std::string_view scenario : {"night_market", "glass_and_smoke"}) {
         std::vector<Frame> frames(2, of_scenario(scenario));

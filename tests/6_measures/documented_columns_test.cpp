@@ -40,16 +40,15 @@ Report whole_report() {
     return {.time_unit = "transparency/alpha_blend", .rows = {row}};
 }
 
-/// The errors that judges of stages give, as their sources write them: {"name", "unit", ...}.
+/// The errors that judges of stages name in their sources, {"name", "unit", ...}. Units differ between stages.
 std::vector<Metric> metrics_of_judges() {
     std::vector<Metric> metrics;
-    static const std::regex written("\\{\"([A-Za-z][^\"]*)\", \"([^\"]*)\",");
+    static const std::regex written("\\{\"([A-Za-z][^\"]*)\", \"[^\"]*\",");
     for (const auto& entry : std::filesystem::recursive_directory_iterator(source / "passes")) {
         if (entry.path().filename() != "judge.cpp") continue;
         const std::string text = file_text(entry.path());
         for (std::sregex_iterator found(text.begin(), text.end(), written), none; found != none; ++found)
-            if (std::ranges::count(metrics, (*found)[1].str(), &Metric::name) == 0)
-                metrics.push_back({(*found)[1], (*found)[2], 0});
+            if (std::ranges::count(metrics, (*found)[1].str(), &Metric::name) == 0) metrics.push_back({(*found)[1], "", 0});
     }
     std::ranges::sort(metrics, {}, &Metric::name);
     return metrics;
@@ -61,7 +60,7 @@ Sheet sheet_of_metrics(const std::vector<Metric>& metrics) {
     row.accuracy.technique_errors = metrics;
     Sheet sheet = sheet_of(Report{.rows = {row}});
     std::erase_if(sheet.columns, [&](const Described& is) { return std::ranges::count(metrics, is.key, &Metric::name) == 0; });
-    for (Described& is : sheet.columns) is.shown = in_files;  // JSON has them in lists
+    for (Described& is : sheet.columns) is.shown = in_files;
     return sheet;
 }
 
@@ -91,7 +90,7 @@ std::string whole_document() {
                 "names.",
                 sheet_of(whole_report()));
     text += section("strata report: errors of stages",
-                    "In JSON the `metric` of `technique_error` and `stage_error`; in CSV columns by these names.",
+                    "In JSON the `metric` of `technique_error` and `stage_error`, with its unit; in CSV columns by these names.",
                     sheet_of_metrics(metrics_of_judges()));
     text +=
         section("strata report of several captures: pooled", "CSV has these rows below those of the captures.", sheet_of(Pool()));
@@ -132,7 +131,7 @@ void expect_documented(const std::filesystem::path& file, const std::string& tex
     if (accepting()) std::ofstream(file, std::ios::binary) << now.substr(0, first) << text << now.substr(last);
 }
 
-TEST(Documents, HaveASentenceForEveryErrorOfAJudge) {
+TEST(Documents, HaveASentenceForEveryErrorThatAJudgeNames) {
     const std::vector<Metric> metrics = metrics_of_judges();
     EXPECT_GE(metrics.size(), 44u);
     const Sheet sheet = sheet_of_metrics(metrics);

@@ -64,12 +64,21 @@ TEST(ProbedPixel, EveryTechniqueShowsWhatItShowsOfTheFragmentsOfTheWholeFrame) {
     }
 }
 
-/// What the replay displays of the pixel, as sRGB encodes it.
+/// The displayed pixel of a replay, as sRGB encodes it.
 glm::dvec3 displayed(Session& session, Request request, const std::string& technique, PixelAt at) {
     request.choices = chosen({technique});
     request.outputs = {"display"};
     const glm::dvec4 light = texel(must(session.run(request)).images.at("display"), at.x, at.y);
     return {linear_to_srgb(light.x), linear_to_srgb(light.y), linear_to_srgb(light.z)};
+}
+
+void expect_display_errors(Session& session, const Request& request, PixelAt at, const Probe& made) {
+    const glm::dvec3 exact = displayed(session, request, "transparency/sorted_lists", at);
+    for (const ProbeCurve& curve : made.curves) {
+        if (!curve.not_supported.empty()) continue;
+        const double off = glm::length(displayed(session, request, curve.variant, at) - exact) / std::sqrt(3.);
+        EXPECT_NEAR(curve.metrics.display_error.value(), off, 2e-3) << curve.variant;
+    }
 }
 
 // Every fragment is a card of its own in a probe: only the frame shows that objects are sorted as wholes, and which layers are
@@ -79,18 +88,23 @@ TEST(ProbedPixel, DisplaysTheErrorOfTheFrameAndRanksByIt) {
     const Request request = on_scenario("smoke_grenade");
     const PixelAt at{80, 45};
     const Probe made = must(probe(session, request, at, {.samples = 32}));
-    const glm::dvec3 exact = displayed(session, request, "transparency/sorted_lists", at);
-    for (const ProbeCurve& curve : made.curves) {
-        if (!curve.not_supported.empty()) continue;
-        const double off = glm::length(displayed(session, request, curve.variant, at) - exact) / std::sqrt(3.);
-        EXPECT_NEAR(curve.metrics.display_error.value(), off, 2e-3) << curve.variant;
-    }
+    expect_display_errors(session, request, at, made);
     const auto place_of = [&](std::string_view technique) {
         const auto order = best_first(made);
         return std::ranges::find(order, technique, &ProbeCurve::variant) - order.begin();
     };
     EXPECT_LE(place_of("transparency/sorted_lists"), 1);
     EXPECT_GE(place_of("transparency/alpha_blend"), 10) << "exact about fragments, and wrong in the frame";
+}
+
+// Its fragments are those of one sample, and a display shows all four.
+TEST(ProbedPixel, DisplaysTheErrorOfAllSamples) {
+    Session& session = session_of_scenarios();
+    const Request request = on_scenario("smoke_grenade", 4);
+    const PixelAt at{80, 45, 2};
+    const Probe made = must(probe(session, request, at, {.variants = {"transparency/weighted"}, .samples = 8}));
+    EXPECT_GT(made.curves.front().metrics.display_error.value(), .01);
+    expect_display_errors(session, request, at, made);
 }
 
 TEST(ProbedPixel, AnEmptyPixelNamesTheNearestOneWithAFragmentInAnyRow) {

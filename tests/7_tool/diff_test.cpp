@@ -94,8 +94,12 @@ TEST_F(Diff, WithATruthHasTheErrorOfTheReport) {
 TEST_F(Diff, WithATruthIsOfOneReplayAndOneStage) {
     ASSERT_EQ(strata("replay panes.strata -o out").code, 0);
     const std::string weighted = "panes.strata --use transparency/weighted ";
-    const std::array<Refusal, 7> refusals = {
+    const std::array<Refusal, 11> refusals = {
         {{"panes.strata --error-at picture", 2, "diff.choose_stage", "at=picture stages=none"},
+         {"panes.strata --stage extinction --error-at stage", 2, "stage.no_technique", "stage=extinction"},
+         {"panes.strata --stage extinction --error-at picture", 2, "stage.no_technique", "stage=extinction"},
+         {"panes.strata --stage culling --error-at stage", 2, "diff.stage_makes_no_light", "stage=culling"},
+         {weighted + "--error-at picture --flip-limit .1 --percent 1", 2, "options.not_applicable", "option=--percent"},
          {weighted + "--use gbuffer/compact --error-at stage", 2, "diff.choose_stage", "at=stage stages=2"},
          {"panes.strata panes.strata --stage transparency --error-at stage", 2, "options.not_applicable", "option=B"},
          {weighted + "--use-a transparency/moments --error-at stage", 2, "options.not_applicable", "option=--use-a"},
