@@ -15,6 +15,7 @@
 #include "replay/report/row_truth.h"
 #include "replay/session/describe_run.h"
 #include "replay/session/judgment.h"
+#include "replay/tables/table.h"
 
 namespace strata {
 namespace {
