@@ -1,10 +1,16 @@
 // How often shaders run, counted by a part of the frame: as a whole run counts it.
 #include "replay/session/step_counts.h"
 
+#include <utility>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/frame/draw.h"
 #include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
 #include "replay/session/device_session.h"
 #include "tests/support/session.h"
 
@@ -76,6 +82,55 @@ TEST(StepCounts, OfEveryDrawOfWhatIsTransparentAreTheRasterizersWhereADeviceCann
         }
     }
     EXPECT_TRUE(rasterized(session, on("three_panes", "transparency/depth_peeling")).empty()) << "tested against its own depth";
+}
+
+TEST(StepCounts, LeaveOutFragmentsBehindOpaqueSurfaces) {
+    // Each pane in turn is opaque.
+    const Frame panes = scenario_frames("three_panes").front();
+    std::vector<Frame> frames;
+    for (std::size_t i = 0; i < panes.materials.size(); ++i) {
+        if (panes.materials[i].alpha_mode != AlphaMode::blend) continue;
+        frames.push_back(panes);
+        frames.back().materials[i].alpha_mode = AlphaMode::opaque;
+    }
+    ASSERT_EQ(frames.size(), 3u);
+    const auto session = session_of(frames);
+    if (!session->device().software) GTEST_SKIP() << "this device counts fragments";
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const Request request{.variant = {.frame = i}, .choices = chosen({"transparency/sorted_lists"})};
+        const std::uint64_t fragments = counted(must(session->run(request)), "fragments");
+        EXPECT_EQ(rasterized(*session, request), std::vector(2, fragments)) << i;
+    }
+}
+
+// The device culls backs where every transparent surface is single-sided. Beside smoke, shaders run there and discard.
+TEST(StepCounts, CountBacksWhereShadersDiscardThem) {
+    Frame turned = scenario_frames("three_panes").front();
+    for (Material& material : turned.materials) material.double_sided = false;
+    for (std::size_t i = 0; i < turned.draws.size(); ++i) {
+        if (turned.materials[turned.draws[i].material].alpha_mode != AlphaMode::blend) continue;
+        std::vector<std::uint32_t>& indices = turned.meshes[turned.draws[i].mesh].indices;
+        for (std::size_t k = 0; k + 2 < indices.size(); k += 3) std::swap(indices[k + 1], indices[k + 2]);
+        break;  // one pane seen from behind is enough
+    }
+    Frame beside_smoke = turned;
+    Emitter smoke{.name = "smoke"};
+    smoke.particles.push_back({.center = {0, 0, -1e4}, .size = 1e-3f, .color = glm::vec3(0), .alpha = .5f});
+    beside_smoke.emitters.push_back(std::move(smoke));
+    const auto session = session_of({turned, beside_smoke});
+    if (!session->device().software) GTEST_SKIP() << "this device counts fragments";
+    std::uint64_t of_frame[2] = {};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Request request{.variant = {.frame = i}, .choices = chosen({"transparency/sorted_lists"})};
+        const std::uint64_t stored = counted(must(session->run(request)), "fragments");
+        of_frame[i] = rasterized(*session, request).front();
+        if (i == 0) {
+            EXPECT_EQ(of_frame[0], stored) << "none are culled by shaders";
+        } else {
+            EXPECT_GT(of_frame[1], stored + 100) << "and all by shaders";
+        }
+    }
+    EXPECT_GT(of_frame[1], of_frame[0] + 100);
 }
 
 TEST(StepCounts, AreKnownWithoutTheShadersThatTheyAreOf) {
