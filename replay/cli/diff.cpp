@@ -429,8 +429,8 @@ bool has_a_side_b(const DiffArguments& options) {
 Result<void> check_options_beside_truth(const DiffArguments& options) {
     const std::string_view why = "with --error-at A is the truth of B";
     if (kind_of(options.a.file) != FileKind::capture)
-        return fail(Fault::usage, "diff.no_truth_of_image", "{file} is an image; --error-at compares a replay with its truth",
-                    options.a.file.string());
+        return fail(Fault::usage, "diff.no_truth_of_image",
+                    "--error-at compares a capture with its truth, and {file} is an image", options.a.file.string());
     return check_not_given(*options.app, {"B", "--use-a", "--set-a", "--gpu-a", "--gpu-b"}, why);
 }
 
@@ -502,7 +502,8 @@ void add_sides(CLI::App& app, DiffArguments& options) {
            "compare with the truth of a stage instead of A: the light that it makes (stage), or the picture that the later "
            "stages make of it (picture)")
         ->check(one_of({"stage", "picture"}));
-    app.add_option("--stage", options.stage, "stage of --error-at; default: the one that --use and --set name")
+    app.add_option("--stage", options.stage,
+                   "stage whose truth --error-at compares with; default: the one that --use and --set name")
         ->needs("--error-at");
     app.add_flag("--allow-partial", options.allow_partial, "read the complete frames of a truncated file");
     app.add_option("--frames", options.frames, "indices of frames, like 0,4-8; default all");

@@ -178,7 +178,7 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
         memo_.drop_unfilled();
         if (!passes_before)
             return fail(Fault::usage, "stage.not_needed", "the frame does not need the stage {stage}", name(stage));
-        // What the memo puts in the place of a stage leaves out what only that stage would have read or drawn over.
+        // A stage taken from the memo leaves out images that only its own steps would have read or drawn over.
         declared = prepare(request, nullptr, Keep::all_images);
         if (!declared) return declared.error();
     }
