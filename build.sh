@@ -104,7 +104,7 @@ case "${1:-build}" in
         case "${2:-}" in
             all)
                 ctest --preset all
-                tests/mutants/run.sh
+                tests/mutants/run.sh --tested
                 ;;
             "") ctest --preset tests ;;
             *) usage ;;
