@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -171,8 +172,11 @@ private:
 
 Answer find_answer(std::span<const Standing> rows, std::optional<std::size_t> baseline, const Question& asked) {
     const auto cost = [&](const Standing& row) { return row.*asked.cost; };
-    const auto error = [](const Standing& row) { return *row.error; };
+    const auto error = [&](const Standing& row) { return std::pair(row.compared_error(), cost(row)); };
     const auto keeps = [&](const Standing& row) { return keeps_all(row, asked); };
+    const auto is_unsteady = [&](const Standing& row) {
+        return asked.cost == &Standing::time && row.spread > largest_spread * row.time;
+    };
     Answer answer{.most_accurate = least(rows, keeps, error)};
     if (!answer.most_accurate) {
         answer.nearest = least(
@@ -180,8 +184,16 @@ Answer find_answer(std::span<const Standing> rows, std::optional<std::size_t> ba
             [&](const Standing& row) { return excess(row, asked); });
         return answer;
     }
+    answer.as_accurate = std::size_t(std::ranges::count_if(rows, [&](const Standing& row) {
+        return keeps(row) && row.compared_error() == rows[*answer.most_accurate].compared_error();
+    }));
     const bool suffices = baseline && asked.error && keeps(rows[*baseline]);
-    answer.recommended = suffices ? baseline : asked.error ? least(rows, keeps, cost) : answer.most_accurate;
+    const Standing& cheapest = rows[*least(rows, keeps, cost)];
+    const auto is_level = [&](const Standing& row) {
+        return keeps(row) && cost_the_same(row, cheapest, asked.cost) && !is_unsteady(row);
+    };
+    answer.recommended = suffices ? baseline : asked.error ? least(rows, is_level, error) : answer.most_accurate;
+    if (!answer.recommended) answer.recommended = least(rows, keeps, cost);
     const Standing& chosen = rows[*answer.recommended];
     answer.cheaper = least(
         rows,
@@ -189,8 +201,7 @@ Answer find_answer(std::span<const Standing> rows, std::optional<std::size_t> ba
         error);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (i == *answer.recommended || !keeps(rows[i]) || !cost_the_same(rows[i], chosen, asked.cost)) continue;
-        const bool is_unsteady = asked.cost == &Standing::time && rows[i].spread > largest_spread * rows[i].time;
-        (is_unsteady ? answer.unsteady : answer.as_cheap).push_back(i);
+        (is_unsteady(rows[i]) ? answer.unsteady : answer.as_cheap).push_back(i);
     }
     std::ranges::stable_sort(answer.as_cheap, {}, [&](std::size_t i) { return error(rows[i]); });
     return answer;
@@ -200,6 +211,14 @@ std::vector<AnswerLine> answer_lines(std::span<const Standing> rows, std::option
                                      const AnswerNames& names) {
     if (asked.within && names.unit.empty()) return {{"answer", "none; the baseline's time could not be measured"}};
     return AnswerLines(rows, baseline, asked, names).lines();
+}
+
+std::string most_accurate_text(const Answer& answer, const std::string& row, std::size_t rows, std::string_view over,
+                               bool is_timed) {
+    const bool is_alone = answer.as_accurate <= 1;
+    const std::string first =
+        is_alone ? "the" : fmt::format("{} of the {}", is_timed ? "the fastest" : "one", answer.as_accurate);
+    return fmt::format("{} is {} most accurate of {}{}", row, first, plural(rows, "row"), over);
 }
 
 std::string as_text(std::span<const AnswerLine> lines) {

@@ -24,10 +24,11 @@ struct Question {
 
 /// Rows by index. The baseline takes part: who has it and is served by it needs no other technique.
 struct Answer {
-    /// Keeps all that is asked: the baseline if it keeps an error that is asked, else the cheapest such row; where no error is
-    /// asked, the most accurate.
+    /// Keeps all that is asked: the baseline if it keeps an error that is asked, else the cheapest such row, or the most accurate
+    /// of those whose spreads do not tell them from it; where no error is asked, the most accurate.
     std::optional<std::size_t> recommended;
-    std::optional<std::size_t> most_accurate;  ///< of the rows that keep all
+    std::optional<std::size_t> most_accurate;  ///< of the rows that keep all; of equally accurate ones the cheapest
+    std::size_t as_accurate = 0;               ///< how many of these are as accurate as it, itself among them
     std::optional<std::size_t> cheaper;        ///< the most accurate of those that are cheaper than the recommended one
     std::optional<std::size_t> nearest;        ///< where no row keeps all: exceeds the limits by the least factor
     std::vector<std::size_t> as_cheap;         ///< keep all and cost as much as the recommended row, within spreads, by error
@@ -62,6 +63,9 @@ struct AnswerLine {
 };
 std::vector<AnswerLine> answer_lines(std::span<const Standing>, std::optional<std::size_t> baseline, const Question&,
                                      const AnswerNames&);
+/// Where nothing was asked: "a is the most accurate of 14 rows", "a is the fastest of the 3 most accurate of 14 rows over 2
+/// captures".
+std::string most_accurate_text(const Answer&, const std::string& row, std::size_t rows, std::string_view over, bool is_timed);
 /// The lines below each other.
 std::string as_text(std::span<const AnswerLine>);
 

@@ -8,14 +8,15 @@ namespace {
 
 /// No less accurate, and faster by more than both spreads.
 bool settles(const Standing& one, const Standing& other) {
-    return one.error && *one.error <= *other.error && one.time + one.spread < other.time - other.spread;
+    return one.error && one.compared_error() <= other.compared_error() && one.time + one.spread < other.time - other.spread;
 }
 
 /// Whether the limit falls within the row's spread, and no row that surely keeps it is more accurate.
 bool hangs_on(const Standing& row, double most, std::span<const Standing> rows) {
     if (std::abs(row.time - most) > row.spread) return false;
-    return std::ranges::none_of(rows,
-                                [&](const Standing& r) { return r.error && r.time + r.spread < most && *r.error < *row.error; });
+    return std::ranges::none_of(rows, [&](const Standing& other) {
+        return other.error && other.time + other.spread < most && other.compared_error() < row.compared_error();
+    });
 }
 
 }  // namespace
@@ -46,7 +47,8 @@ std::vector<bool> rows_far_behind(std::span<const Standing> rows) {
     std::vector<bool> far(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
         for (std::size_t j = 0; j < rows.size() && !far[i]; ++j)
-            far[i] = rows[i].error && rows[j].error && *rows[j].error <= *rows[i].error && 2 * rows[j].time < rows[i].time;
+            far[i] = rows[i].error && rows[j].error && rows[j].compared_error() <= rows[i].compared_error() &&
+                     2 * rows[j].time < rows[i].time;
     return far;
 }
 

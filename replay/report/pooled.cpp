@@ -213,7 +213,7 @@ std::vector<Standing> standings(const Pool& pool) {
     for (const PooledRow& row : pool.rows) {
         Standing standing{
             .time = row.time.value_or(HUGE_VAL), .spread = row.time_spread, .bytes_per_pixel = std::round(row.bytes_per_pixel)};
-        if (is_ranked(pool, row)) standing.error = row.error;
+        if (is_ranked(pool, row)) standing.error = row.error, standing.rounding = pool.error.rounding();
         all.push_back(standing);
     }
     return all;
@@ -225,6 +225,7 @@ std::vector<Standing> asked_standings(const Pool& pool) {
     std::vector<Standing> all;
     for (const PooledRow& row : pool.rows) {
         all.push_back(row.asked);
+        all.back().rounding = pool.error.rounding();
         if (!is_ranked(pool, row)) all.back().error.reset();
     }
     return all;

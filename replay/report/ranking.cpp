@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -18,8 +19,8 @@ bool are_level(const Standing& a, const Standing& b) { return std::abs(a.time - 
 std::vector<bool> pareto_front(std::span<const Standing> rows, Cost cost) {
     const auto beats = [&](const Standing& one, const Standing& other) {
         const double apart = cost == &Standing::time ? one.spread + other.spread : 0;
-        const bool no_worse = *one.error <= *other.error && one.*cost <= other.*cost + apart;
-        return no_worse && (*one.error < *other.error || one.*cost + apart < other.*cost);
+        const double error = one.compared_error(), of_other = other.compared_error();
+        return error <= of_other && one.*cost <= other.*cost + apart && (error < of_other || one.*cost + apart < other.*cost);
     };
     std::vector<bool> front;
     for (const Standing& row : rows)
@@ -53,8 +54,9 @@ std::string name(const Budget& budget) {
 std::optional<std::size_t> best_within(std::span<const Standing> rows, const Budget& budget) {
     std::optional<std::size_t> best;
     const auto spent = [&](const Standing& row) { return row.*budget.cost + (budget.cost == &Standing::time ? row.spread : 0); };
+    const auto rank = [&](const Standing& row) { return std::pair(row.compared_error(), spent(row)); };
     for (std::size_t i = 0; i < rows.size(); ++i)
-        if (rows[i].error && spent(rows[i]) <= budget.most && (!best || *rows[i].error < *rows[*best].error)) best = i;
+        if (rows[i].error && spent(rows[i]) <= budget.most && (!best || rank(rows[i]) < rank(rows[*best]))) best = i;
     return best;
 }
 

@@ -15,15 +15,20 @@ struct RankingError {
     std::string name;
     bool is_of_white = false;  ///< a share of white, which people read in percent
     std::string text(double error) const;
+    /// Standing::rounding: what float leaves of exact light. An object of a million that is missed is none of it.
+    double rounding() const { return is_of_white ? exact_below : 0; }
 };
 
 /// What a row is ranked by. Without an error it is not ranked: the technique cannot do the frame.
 struct Standing {
     std::optional<double> error;
+    double rounding = 0;                      ///< errors below it are equal
     double time = 0;                          ///< in whatever unit all rows have
     double spread = 0;                        ///< of time: two times that differ by less than both spreads are equal
     double bytes_per_pixel = 0;               ///< whole ones: the few bytes of a counter are no cost
     double ms = 0, ms_spread = 0, bytes = 0;  ///< what limits that are no multiples are of
+    /// The error as rows are compared by it. Only of those that are ranked.
+    double compared_error() const { return *error < rounding ? 0 : *error; }
 };
 using Cost = double Standing::*;
 
@@ -47,7 +52,7 @@ std::span<const Budget> budgets();
 /// "time <= 2", "bytes per pixel <= 32".
 std::string name(const Budget&);
 
-/// The most accurate row within a budget, also with its spread, or nothing.
+/// The most accurate row within a budget, also with its spread, or nothing; of equally accurate ones that which spends least.
 std::optional<std::size_t> best_within(std::span<const Standing>, const Budget&);
 
 }  // namespace strata

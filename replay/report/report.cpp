@@ -135,7 +135,8 @@ std::vector<Standing> standings(std::span<const Measurement> rows) {
                           .ms = row.stage_ms.median,
                           .ms_spread = row.stage_ms.mad,
                           .bytes = double(row.stage_bytes)};
-        if (row.is_measured() && !row.has_other_truth) standing.error = ranking_metric(row).value;
+        if (row.is_measured() && !row.has_other_truth)
+            standing.error = ranking_metric(row).value, standing.rounding = ranking_error(row).rounding();
         all.push_back(standing);
     }
     return all;

@@ -26,6 +26,7 @@ namespace strata {
 namespace {
 
 using testing::ElementsAre;
+using testing::Field;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -137,11 +138,48 @@ TEST(Answers, AreTheFastestRowThatKeepsAllLimits) {
     EXPECT_EQ(find_answer(inexact, {}, {.within = 2}).recommended, 1u) << "the most accurate where no error is asked";
 }
 
+/// Which of two is the faster one changes from run to run.
+TEST(Answers, AreTheMostAccurateOfWhatIsAsFast) {
+    std::vector<Standing> rows = {{.error = .006, .time = 2.3, .spread = .1}, {.error = .001, .time = 2.4, .spread = .05}};
+    EXPECT_EQ(find_answer(rows, {}, {.error = .01}).recommended, 1u);
+    EXPECT_EQ(find_answer(rows, {}, {.error = .01}).as_cheap, std::vector<std::size_t>{0});
+    EXPECT_EQ(find_answer(rows, {}, {.error = .01, .within = 2.42}).recommended, 0u) << "2.4 +- .05 is not within 2.42";
+    rows[1].spread = 1;
+    EXPECT_EQ(find_answer(rows, {}, {.error = .01}).recommended, 0u) << "unsteady";
+    rows[0].spread = 1;
+    EXPECT_EQ(find_answer(rows, {}, {.error = .01}).recommended, 0u) << "both are, and the first is faster";
+    rows[0].spread = .01, rows[1].spread = .01;
+    EXPECT_EQ(find_answer(rows, {}, {.error = .01}).recommended, 0u) << "told apart";
+}
+
 TEST(Answers, AreTheBaselineWhereItKeepsTheError) {
     EXPECT_EQ(find_answer(four_techniques, 4, {.error = .03, .within = 2}).recommended, 4u);
     EXPECT_EQ(find_answer(four_techniques, 1, {.error = .002}).recommended, 1u) << "also where another is faster";
     EXPECT_EQ(find_answer(four_techniques, 4, {.error = .01}).recommended, 0u);
     EXPECT_EQ(find_answer(four_techniques, 4, {.within = 2}).recommended, 0u) << "it always keeps a time in units of its own";
+}
+
+/// Lists of a glass in smoke: all three are exact but for rounding, and the first is 2.7 times as slow as the second.
+TEST(Answers, OfExactRowsAreTheFastest) {
+    std::vector<Measurement> rows = {row("lists", 5.1e-8, 27), row("blend", 5.2e-8, 10, 8), row("function", 9e-5, 40, 4),
+                                     row("adaptive", .002, 9)};
+    for (Measurement& each : rows)
+        each.accuracy.technique_errors.front() = {std::string(display_rmse), "of white",
+                                                  each.accuracy.technique_errors.front().value};
+    const Answer answer = find_answer(standings(rows), {}, {});
+    EXPECT_EQ(answer.recommended, 1u);
+    EXPECT_EQ(most_accurate_text(answer, "blend", rows.size(), "", true),
+              "blend is the fastest of the 3 most accurate of 4 rows");
+    EXPECT_EQ(find_answer(standings(rows), {}, {.within_ms = 9.5}).most_accurate, 3u);
+    EXPECT_EQ(find_answer(standings(rows), {}, {.cost = &Standing::bytes_per_pixel}).recommended, 0u) << "the smallest";
+    EXPECT_EQ(best_within(standings(rows), {&Standing::time, 100}), 1u);
+    mark_fronts(rows);
+    EXPECT_THAT(rows, ElementsAre(Field(&Measurement::on_front, false), Field(&Measurement::on_front, true),
+                                  Field(&Measurement::on_front, false), Field(&Measurement::on_front, true)));
+    for (Measurement& each : rows) each.accuracy.technique_errors.front().unit = "";
+    EXPECT_EQ(find_answer(standings(rows), {}, {}).recommended, 0u) << "one draw of many millions is one";
+    EXPECT_EQ(most_accurate_text(find_answer(standings(rows), {}, {}), "lists", 4, " over 2 captures", true),
+              "lists is the most accurate of 4 rows over 2 captures");
 }
 
 TEST(Answers, OfNoRowThatKeepsAllNameTheNearest) {

@@ -119,7 +119,10 @@ std::vector<ReportColumn> columns_of(const Report& report) {
     for (std::size_t i = 0; i < sheet.columns.size(); ++i)
         if ((sheet.columns[i].shown & in_window) != 0) columns.push_back(window_column(sheet, i));
     // Errors, then costs; of these first the error that ranks rows and milliseconds, which are the axes to begin with.
-    const std::string ranking = title_of(ranking_error(report));
+    const RankingError error = ranking_error(report);
+    const std::string ranking = title_of(error);
+    for (ReportColumn& column : columns)
+        if (column.head == ranking) column.rounding = error.rounding();
     std::ranges::stable_sort(columns, {}, [&](const ReportColumn& column) {
         return std::pair(column.kind, column.head != (column.kind == ReportColumn::Kind::cost ? "ms" : ranking));
     });
@@ -156,7 +159,8 @@ std::vector<bool> front_of(const Report& report, const ReportColumn& error, cons
     for (std::size_t row = 0; row < error.values.size(); ++row) {
         const auto spent = cost.size(row);
         const bool is_ranked = spent && !report.rows[row].has_other_truth;
-        standings.push_back({.error = is_ranked ? error.size(row) : std::nullopt, .time = spent.value_or(0)});
+        standings.push_back(
+            {.error = is_ranked ? error.size(row) : std::nullopt, .rounding = error.rounding, .time = spent.value_or(0)});
     }
     return pareto_front(standings, &Standing::time);
 }

@@ -21,6 +21,7 @@ struct ReportColumn {
     std::string label;  ///< after a number: "ms of the stage", "bias (radiance)"
     std::string tooltip = {};
     bool is_detail = false;
+    double rounding = 0;                        ///< values below it are equal: Standing::rounding
     std::vector<std::optional<double>> values;  ///< by row; nothing where it was not measured. A bias may be below 0
     std::vector<double> spreads = {};           ///< median absolute deviations by row; empty: it has no spread
     std::vector<std::string> texts = {};        ///< of the cells, by row

@@ -95,8 +95,10 @@ private:
         if (!shown_) return "No technique can do all of these frames";
         const PooledRow& row = pool_.rows[*shown_];
         if (!pool_.question.is_asked())
-            return fmt::format("{} is the most accurate of {} over {}: {}", short_label(row), plural(pool_.rows.size(), "row"),
-                               frames_text(pool_), facts(row));
+            return fmt::format("{}: {}",
+                               most_accurate_text(answer_, short_label(row), pool_.rows.size(), " over " + frames_text(pool_),
+                                                  row.time.has_value()),
+                               facts(row));
         if (!answer_.recommended)
             return fmt::format("No technique keeps the limits over {}; {} is the nearest: {}", frames_text(pool_),
                                short_label(row), facts(row));

@@ -82,7 +82,8 @@ public:
         const Measurement& row = report_.rows[*shown_];
         const std::string facts = fmt::format("{}{}{}", error_words(row), report_.is_timed ? ", at " : "", time_words(row));
         if (!report_.question.is_asked())
-            return fmt::format("{} is the most accurate of {}: {}", short_label(row), plural(report_.rows.size(), "row"), facts);
+            return fmt::format("{}: {}", most_accurate_text(answer_, short_label(row), report_.rows.size(), "", report_.is_timed),
+                               facts);
         if (!answer_.recommended)
             return fmt::format("No technique keeps the limits; {} is the nearest: {}", short_label(row), facts);
         return fmt::format("{} {}: {}", shown_ == baseline_of(report_) ? "Keep" : "Use", short_label(row), facts);
@@ -142,7 +143,8 @@ private:
             return own.error ? fmt::format("{:.2f} \u00d7 the modeled time of {} on {}", own.time, unit, report_.question.gpu)
                              : "a time that no model knows";
         }
-        if (row.time) return fmt::format("{:.2f} \u00d7 the time of {}", row.time->median, unit);
+        const bool is_unit = row.technique == report_.time_unit && row.settings.empty();
+        if (row.time && !is_unit) return fmt::format("{:.2f} \u00d7 the time of {}", row.time->median, unit);
         return short_number(row.stage_ms.median) + " ms";
     }
 
