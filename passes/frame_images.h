@@ -28,6 +28,7 @@ struct FrameImages {
     const SceneFacts* facts = nullptr;  ///< derived from `recorded`: what declarations ask instead of walking the frame
     Extent extent;                      ///< of the view; depth 1
     std::uint32_t samples = 1;          ///< 1 or 4
+    bool makes_unused = false;          ///< also products without a reader in view (passes/scene/readers.h)
     // What it is drawn on.
     Capabilities capabilities;
 

@@ -303,14 +303,23 @@ Extent drawn_extent(const Graph& graph, const Step& step, const DrawWork& draw) 
     return extent_of(graph.shape(first.image), first.part);
 }
 
-/// A device would refuse rows outside, and none at all are a mistake.
+template <typename Lines>
+bool are_within(const Lines& lines, std::uint32_t count) {
+    return lines.count > 0 && lines.first < count && lines.count <= count - lines.first;
+}
+
+/// A device would refuse rows and columns outside, and none at all are a mistake.
 Result<void> check_rows(const Graph& graph, const Step& step, const DrawWork& draw) {
-    if (!draw.rows) return {};
-    const std::uint32_t height = drawn_extent(graph, step, draw).height;
-    const Rows rows = *draw.rows;
-    if (rows.count > 0 && rows.first < height && rows.count <= height - rows.first) return {};
-    return fail(Fault::usage, "graph.rows_out_of_range", "{step} draws {rows} rows from row {first}, but there are {height}",
-                step.name, rows.count, rows.first, height);
+    if (!draw.rows && !draw.columns) return {};
+    const Extent extent = drawn_extent(graph, step, draw);
+    if (draw.rows && !are_within(*draw.rows, extent.height))
+        return fail(Fault::usage, "graph.rows_out_of_range", "{step} draws {rows} rows from row {first}, but there are {height}",
+                    step.name, draw.rows->count, draw.rows->first, extent.height);
+    if (draw.columns && !are_within(*draw.columns, extent.width))
+        return fail(Fault::usage, "graph.columns_out_of_range",
+                    "{step} draws {columns} columns from column {first}, but there are {width}", step.name, draw.columns->count,
+                    draw.columns->first, extent.width);
+    return {};
 }
 
 Result<void> check_attachments(const Graph& graph, PlannedStep& planned) {

@@ -43,6 +43,8 @@ std::string raster_text(const PlannedStep& planned) {
     const auto* draw = std::get_if<DrawWork>(&planned.step.work);
     if (draw && draw->alpha_to_coverage) text += ", alpha to coverage";
     if (draw && draw->at_equal_depth) text += ", at equal depth";
+    if (draw && draw->columns)
+        text += fmt::format(", columns {} to {}", draw->columns->first, draw->columns->first + draw->columns->count - 1);
     if (draw && draw->rows) text += fmt::format(", rows {} to {}", draw->rows->first, draw->rows->first + draw->rows->count - 1);
     return text;
 }

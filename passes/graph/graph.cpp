@@ -209,6 +209,11 @@ DrawStep& DrawStep::in_rows(Rows rows) {
     return *this;
 }
 
+DrawStep& DrawStep::in_columns(PixelColumns columns) {
+    std::get<DrawWork>(step().work).columns = columns;
+    return *this;
+}
+
 DrawStep& DrawStep::geometry(std::string shader) {
     std::vector<std::string>& shaders = step().shaders;
     shaders.front() = shader + ".vert";
@@ -371,6 +376,10 @@ void Graph::keep(Image image) {
 void Graph::keep(Buffer buffer) {
     const auto same = [&](Buffer kept) { return kept.id == buffer.id; };
     if (buffer && std::ranges::none_of(kept_buffers_, same)) kept_buffers_.push_back(buffer);
+}
+
+void Graph::leave_out(std::string product, std::string reason) {
+    left_out_.push_back({scopes_.back(), std::move(product), std::move(reason)});
 }
 
 void Graph::offer(std::string name, Buffer buffer) { offers_.push_back({std::move(name), buffer, std::nullopt}); }

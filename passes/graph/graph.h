@@ -97,6 +97,8 @@ public:
     /// Draws these rows of the attachments alone: a scissor, which spares all fragments of others. lavapipe 22.3 lets the lower
     /// samples of the row above through where pixels have several, so the shader must leave out rows above the first.
     DrawStep& in_rows(Rows);
+    /// Draws these columns alone, of those rows or of all.
+    DrawStep& in_columns(PixelColumns);
     /// A geometry shader by its path without ".geom", between the fragment shader and the vertex shader beside itself.
     DrawStep& geometry(std::string shader);
     /// Only the first *count of the list's commands.
@@ -145,6 +147,8 @@ public:
     void keep(Buffer);
     /// From here on, steps that count into these counters of enter() are not culled.
     void keep_counting(Buffer counters) { buffers_[counters.id].weak = false; }
+    /// A product of this scope without a reader, whose steps were not declared: plans list it.
+    void leave_out(std::string product, std::string reason);
     /// Bound wherever a shader declares the name and the step does not bind it (scene buffers, the view, counters).
     void offer(std::string name, Buffer);
 
@@ -167,6 +171,8 @@ public:
         std::optional<std::uint32_t> scope;  ///< counters are offered to their scope alone
     };
     std::span<const Offer> offers() const { return offers_; }
+
+    std::span<const CulledStep> left_out() const { return left_out_; }
 
     /// Takes out the steps of a scope (their outputs then come from elsewhere: the memo).
     void drop_scope(std::uint32_t scope);
@@ -194,6 +200,7 @@ private:
     std::vector<Image> kept_images_;
     std::vector<Buffer> kept_buffers_;
     std::vector<Offer> offers_;
+    std::vector<CulledStep> left_out_;
 };
 
 }  // namespace strata

@@ -160,6 +160,7 @@ void cull(const Graph& graph, Plan& plan) {
     }
     std::ranges::reverse(alive);
     std::ranges::reverse(plan.culled);
+    plan.culled.insert(plan.culled.begin(), graph.left_out().begin(), graph.left_out().end());
     plan.steps = std::move(alive);
 }
 

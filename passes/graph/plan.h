@@ -72,11 +72,6 @@ struct MemorySlot {
     std::vector<std::uint32_t> images;  ///< ids, in order of their lives
 };
 
-struct CulledStep {
-    Scope scope;
-    std::string name, reason;
-};
-
 struct Plan {
     std::vector<PlannedStep> steps;
     std::vector<MemorySlot> slots;

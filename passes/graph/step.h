@@ -52,6 +52,12 @@ struct Rows {
     friend bool operator==(const Rows&, const Rows&) = default;
 };
 
+/// Columns of pixels that lie together.
+struct PixelColumns {
+    std::uint32_t first = 0, count = 0;
+    friend bool operator==(const PixelColumns&, const PixelColumns&) = default;
+};
+
 /// Which mip and layer of an image a binding means; all of them where nothing is said.
 struct Part {
     std::optional<std::uint32_t> mip = {}, layer = {};
@@ -136,7 +142,8 @@ struct DrawWork {
     std::uint64_t count_offset = 0;
     Cull cull = Cull::none;
     std::optional<Extent> viewport = {};  ///< without attachments, or smaller than them
-    std::optional<Rows> rows = {};        ///< the scissor
+    std::optional<Rows> rows = {};        ///< the scissor, with columns
+    std::optional<PixelColumns> columns = {};
 };
 struct FullscreenWork {
     std::optional<Extent> viewport = {};
@@ -182,6 +189,12 @@ struct Scope {
     std::string technique = {};  ///< "transparency/weighted"
     std::string view = {};       ///< the name of a view or table
     friend auto operator<=>(const Scope&, const Scope&) = default;
+};
+
+/// A step that does not run in a frame, or a product with all its steps.
+struct CulledStep {
+    Scope scope;
+    std::string name, reason;
 };
 
 /// For people: "transparency: transparency/weighted", "memo: shadows: shadows/pcf", "view: lighting/tiled:depth", "frame".

@@ -1,7 +1,6 @@
 #include "passes/scene/frame_spectrum.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <set>
 
@@ -11,41 +10,13 @@
 #include "capture_format/frame/light_volume.h"
 #include "capture_format/frame/material.h"
 #include "capture_format/light_types.h"
+#include "passes/scene/frustum.h"
 #include "passes/scene/light_features.h"
 #include "passes/scene/view_space.h"
 #include "passes/shaders/light_features.shared.h"
 
 namespace strata {
 namespace {
-
-constexpr double single_precision_margin = 1e-4;  // of a sphere's distance and size: what tiles test is rounded to floats
-
-/// What the eye sees, without an end.
-class Frustum {
-public:
-    explicit Frustum(const Frame& frame) : near_(frame.view.near) {
-        const double w = frame.view.width, h = frame.view.height;
-        const std::array corners = {ray_through(frame.view, 0, 0), ray_through(frame.view, w, 0), ray_through(frame.view, w, h),
-                                    ray_through(frame.view, 0, h)};
-        const glm::dvec3 middle = ray_through(frame.view, w / 2, h / 2);
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const glm::dvec3 normal = glm::normalize(glm::cross(corners[i], corners[(i + 1) % corners.size()]));
-            inward_[i] = glm::dot(normal, middle) < 0 ? -normal : normal;
-        }
-    }
-    /// Never false for a sphere that a tile's own tests keep. Those test planes one by one, so that a sphere around the near
-    /// plane beside the view passes them: such a one is kept here, too.
-    bool meets(const BoundingSphere& sphere) const {
-        const double reach = sphere.radius + single_precision_margin * (sphere.radius + glm::length(sphere.center));
-        if (sphere.center.z + reach < near_) return false;
-        if (sphere.center.z - reach <= 0) return true;
-        return std::ranges::none_of(inward_, [&](const glm::dvec3& normal) { return glm::dot(normal, sphere.center) < -reach; });
-    }
-
-private:
-    double near_;
-    std::array<glm::dvec3, 4> inward_{};
-};
 
 /// Of each kind of light that may reach a tile.
 std::set<std::uint32_t> features_by_light(const Frame& frame, std::span<const Light> lights, const Frustum& frustum) {
@@ -83,7 +54,7 @@ void add_each_bit(std::uint32_t always, std::uint32_t optional, std::set<std::ui
 /// Spectra of which every other one is a union.
 std::set<std::uint32_t> spectrum_parts(const Frame& frame, std::span<const Light> lights, const DrawBounds& bounds,
                                        std::uint32_t features) {
-    const Frustum frustum(frame);
+    const Frustum frustum(frame.view);
     std::set<std::uint32_t> parts;
     for (const std::uint32_t light : features_by_light(frame, lights, frustum)) {
         const std::uint32_t always = light & features & ~features_of_some_tiles;
@@ -97,7 +68,7 @@ std::set<std::uint32_t> spectrum_parts(const Frame& frame, std::span<const Light
 }  // namespace
 
 std::uint32_t frame_spectrum(const Frame& frame, std::span<const Light> lights, const DrawBounds& bounds) {
-    const Frustum frustum(frame);
+    const Frustum frustum(frame.view);
     std::uint32_t features = features_of_surfaces(frame, bounds, frustum) | features_of_volumes(frame);
     for (const std::uint32_t light : features_by_light(frame, lights, frustum)) features |= light;
     return features;

@@ -6,8 +6,12 @@
 #include "passes/scene/frame_spectrum.h"
 #include "passes/scene/light_features.h"
 #include "passes/scene/light_list.h"
+#include "passes/scene/readers.h"
 
 namespace strata {
+
+SceneFacts::SceneFacts(const Frame& frame) : frame_(&frame) {}
+SceneFacts::~SceneFacts() = default;
 
 const Features& SceneFacts::features() const {
     return features_.get([&] { return frame_features(*frame_); });
@@ -31,6 +35,10 @@ const std::vector<ShadowView>& SceneFacts::shadow_views(Allocation allocation) c
         for (const std::uint32_t draw : lists().casters) casters.push_back(bounds().spheres[draw]);
         return strata::shadow_views(*frame_, {lights(), casters}, allocation);
     });
+}
+
+const Readers& SceneFacts::readers() const {
+    return *readers_.get([&] { return std::make_unique<Readers>(*frame_, lists(), bounds()); });
 }
 
 DepthRange SceneFacts::transparent_depths() const {
@@ -86,7 +94,7 @@ std::size_t SceneFacts::derived() const {
          {features_.is_made(), lists_.is_made(), lights_.is_made(), bounds_.is_made(), views_[0].is_made(), views_[1].is_made(),
           transparent_depths_.is_made(), world_depths_.is_made(), farthest_depth_offset_.is_made(), material_uses_[0].is_made(),
           material_uses_[1].is_made(), light_features_.is_made(), spectrum_.is_made(), highest_interface_layer_.is_made(),
-          caster_hashes_.is_made()})
+          caster_hashes_.is_made(), readers_.is_made()})
         made += is_made ? 1 : 0;
     return made;
 }

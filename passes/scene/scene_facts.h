@@ -4,6 +4,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,6 +21,8 @@
 #include "passes/scene/transparent_depths.h"
 
 namespace strata {
+
+class Readers;  // passes/scene/readers.h
 
 /// A value made at first use.
 template <typename Value>
@@ -40,7 +43,8 @@ private:
 /// at a time.
 class SceneFacts {
 public:
-    explicit SceneFacts(const Frame& frame) : frame_(&frame) {}
+    explicit SceneFacts(const Frame&);
+    ~SceneFacts();
     SceneFacts(const SceneFacts&) = delete;
     SceneFacts& operator=(const SceneFacts&) = delete;
 
@@ -51,6 +55,7 @@ public:
     std::span<const Light> lights() const;
     const DrawBounds& bounds() const;
     const std::vector<ShadowView>& shadow_views(Allocation) const;
+    const Readers& readers() const;
     DepthRange transparent_depths() const;
     DepthRange world_depths() const;
     float farthest_depth_offset() const;
@@ -80,6 +85,7 @@ private:
     Kept<std::vector<Light>> lights_;
     Kept<DrawBounds> bounds_;
     Kept<std::vector<ShadowView>> views_[2];  ///< by Allocation
+    Kept<std::unique_ptr<Readers>> readers_;
     Kept<DepthRange> transparent_depths_, world_depths_;
     Kept<float> farthest_depth_offset_;
     mutable std::map<std::array<std::uint32_t, 3>, FragmentBounds> fragment_bounds_;  ///< by width, height and samples

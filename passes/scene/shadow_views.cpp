@@ -78,6 +78,7 @@ void add_cascades(const Frame& frame, std::span<const BoundingSphere> casters, s
     for (const double end : ends) {
         ShadowView view = sun_view(frame, slice_sphere(frame.view, blended_from, end), casters);
         view.range_begin = begin;
+        view.read_from = blended_from;
         view.range_end = end;
         views.push_back(view);
         blended_from = end - cascade_blend * (end - begin);

@@ -20,6 +20,7 @@ struct ShadowView {
     std::uint32_t size = 0;   ///< texels per edge
     double bias = 0;          ///< meters towards the light along its rays
     double range_begin = 0;   ///< view depth from which a cascade serves ...
+    double read_from = 0;     ///< view depth from which a cascade is read: where the one before it blends into it
     double range_end = 0;     ///< ... and until which; its last tenth blends into the next cascade, the last one's into lit
     double texel = 0;         ///< edge of a texel in meters: anywhere for the sun, else at one meter along the axis
     double source_width = 0;  ///< of the light, meters: twice source_radius; of the sun per meter: 2 tan(angular_radius)

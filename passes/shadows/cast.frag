@@ -1,5 +1,5 @@
-// Only depth is kept; masked casters have holes where the G-buffer has them, at the map's own level of detail. A texel is a pixel of
-// one sample: `masked` is clip, mip_coverage or dithered (passes/shadows/shadow_map_params.h).
+// Only depth is kept; masked casters have holes where the G-buffer has them, at the map's own level of detail. A texel is a pixel
+// of one sample: `masked` is clip, mip_coverage or dithered (passes/shadows/shadow_map_params.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/gbuffer/coverage/coverage.glsl"

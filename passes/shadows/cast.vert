@@ -1,5 +1,5 @@
-// A caster's vertex in a shadow map. uv 0..1 of the map is its square of the viewport, corner to corner; what leaves it is clipped,
-// so that maps that share a layer stay apart.
+// A caster's vertex in a shadow map. uv 0..1 of the map is its square of the viewport, corner to corner; what leaves it is
+// clipped, so that maps that share a layer stay apart.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/shaders/vertex.glsl"

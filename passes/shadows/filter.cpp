@@ -24,6 +24,9 @@ constexpr auto caster_masks = choice_names({{std::uint32_t(CasterMask::clip), "c
 
 Allocation allocation_of(const ShadowFilter& filter) { return static_cast<Allocation>(filter.allocation); }
 
+/// Texels in units of 1024, rounded up: texels themselves would leave 32 bits at 64 maps of 8192 x 8192.
+std::uint32_t kilotexels(std::uint64_t texels) { return static_cast<std::uint32_t>((texels + 1023) / 1024); }
+
 AtlasPush atlas_push(const FrameImages& frame) {
     const std::vector<ShadowView>& views = frame.facts->shadow_views(allocation_of(frame.shadow_filter));
     const MapLayers in = map_layers(views);
@@ -66,6 +69,9 @@ void filter_shadow_maps(Graph& graph, FrameImages& frame, const std::string& sha
 ComputeStep filter_step(Graph& graph, const FrameImages& frame, const std::string& shader, Image& visibility) {
     const auto shadowed = static_cast<std::uint32_t>(shadowed_lights(frame.facts->shadow_views(Allocation::own)).size());
     const Shape maps = graph.shape(frame.shadow_maps);
+    std::uint32_t drawn = 0;
+    for (const ShadowView& view : drawn_views(frame, allocation_of(frame.shadow_filter)))
+        drawn += kilotexels(std::uint64_t{view.size} * view.size);
     const std::uint64_t texels = std::uint64_t(maps.layers) * maps.extent.width * maps.extent.height;
     visibility = graph.create("visibility", {.extent = frame.extent, .format = Format::r16f, .layers = shadowed * frame.samples});
     ComputeStep builder = graph.compute(shader);
@@ -74,7 +80,8 @@ ComputeStep filter_step(Graph& graph, const FrameImages& frame, const std::strin
         .samples("shadow_maps", frame.shadow_maps)
         .samples("depth_layers", frame.depth_layers)
         .stores("visibility", visibility)
-        .fixes("layer_kilotexels", static_cast<std::uint32_t>((texels + 1023) / 1024))
+        .fixes("drawn_kilotexels", drawn)
+        .fixes("layer_kilotexels", kilotexels(texels))
         .over({frame.extent.width, frame.extent.height, frame.samples});
 }
 

@@ -9,6 +9,7 @@
 #include "replay/cli/left_out.h"
 #include "replay/cli/verb_options.h"
 #include "replay/json_text.h"
+#include "replay/session/eye_move.h"
 
 namespace strata {
 namespace {
@@ -19,6 +20,7 @@ struct GraphArguments {
     OpenOptions open;
     ChoiceOptions choices;
     std::size_t frame = 0;
+    std::string eye;
     bool dot = false, json = false;
 };
 
@@ -54,6 +56,9 @@ Result<void> graph(const GraphArguments& options) {
     auto request = request_of(options.choices);
     if (!request) return request.error();
     request->variant.frame = options.frame;
+    const auto eye = eye_move_of(options.eye);
+    if (!eye) return eye.error();
+    request->variant.eye = *eye;
     if (const auto told = LeftOutNotes().tell(**session, *request); !told) return told;
     const auto planned = (*session)->plan(*request);
     if (!planned) return planned.error();
@@ -77,6 +82,7 @@ std::function<Result<void>()> declare_graph(CLI::App& app) {
     add_options(app, options->open);
     add_options(app, options->choices);
     app.add_option("--frame", options->frame, "index of the frame, default 0");
+    add_eye(app, options->eye);
     CLI::Option* dot = app.add_flag("--dot", options->dot, "print Graphviz instead of text");
     app.add_flag("--json", options->json, "print JSON instead of text")->excludes(dot);
     return [options] { return graph(*options); };

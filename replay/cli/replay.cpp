@@ -375,9 +375,7 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
     app.add_option("--tolerance", options->tolerance,
                    "largest allowed relative RMSE to the expected images; exit code 6 if the capture has none")
         ->check(not_negative());
-    app.add_option("--eye", options->eye,
-                   "move the camera: dolly, truck, pedestal (meters ahead, right, up), pan, tilt, roll (radians), "
-                   "like pan=0.5,dolly=1");
+    add_eye(app, options->eye);
     app.add_option("--shaders", options->shaders,
                    "replace built-in shaders by those in the passes/ folder of this folder; needs "
                    "glslangValidator");

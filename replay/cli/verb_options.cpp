@@ -88,6 +88,12 @@ void add_options(CLI::App& app, ChoiceOptions& options) {
     app.add_option("--samples", options.samples, "replace the recorded samples per pixel")->check(one_or_four());
 }
 
+void add_eye(CLI::App& app, std::string& eye) {
+    app.add_option("--eye", eye,
+                   "move the camera: dolly, truck, pedestal (meters ahead, right, up), pan, tilt, roll (radians), "
+                   "like pan=0.5,dolly=1");
+}
+
 Result<Request> request_of(const ChoiceOptions& options) {
     auto choices = parse_choices(options.uses, options.sets);
     if (!choices) return choices.error();

@@ -45,6 +45,8 @@ struct ChoiceOptions {
 };
 void add_options(CLI::App&, ChoiceOptions&);
 Result<Request> request_of(const ChoiceOptions&);
+/// --eye of verbs that move the camera: a text for eye_move_of().
+void add_eye(CLI::App&, std::string& eye);
 
 /// "0,4-8" as frame indices below count; empty means all. Fails for frames that do not exist.
 Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::size_t count);

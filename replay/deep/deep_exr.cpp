@@ -14,19 +14,18 @@
 #include <exception>
 #include <memory>
 #include <new>
-#include <sstream>
 
 #include <ImfChannelList.h>
 #include <ImfDeepImageStateAttribute.h>
 #include <ImfHeader.h>
 #include <ImfPartType.h>
 #include <ImfStandardAttributes.h>
-#include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
 #include <ImfVersion.h>
 #include <libdeflate.h>
 
 #include "replay/deep/deep_image.h"
+#include "replay/images/exr_bytes.h"
 
 namespace strata {
 namespace {
@@ -96,14 +95,13 @@ Imf::Header header_of(const DeepImage& image, const Metadata& metadata) {
 }
 
 /// All that comes before the offsets of lines.
-std::string head_of(const DeepImage& image, const Metadata& metadata) {
+std::string head_of(const DeepImage& image, const Metadata& metadata, ExrBytes& bytes) {
     const bool long_names = std::ranges::any_of(metadata, [](const auto& row) { return row.first.size() > longest_short_name; });
     const std::int32_t version = Imf::EXR_VERSION | Imf::NON_IMAGE_FLAG | (long_names ? Imf::LONG_NAMES_FLAG : 0);
-    Imf::StdOSStream stream;
     for (const std::int32_t number : {std::int32_t{Imf::MAGIC}, version})
-        stream.write(reinterpret_cast<const char*>(&number), sizeof number);
-    header_of(image, metadata).writeTo(stream);
-    return stream.str();
+        bytes.write(reinterpret_cast<const char*>(&number), sizeof number);
+    header_of(image, metadata).writeTo(bytes);
+    return bytes.take();
 }
 
 }  // namespace
@@ -111,11 +109,13 @@ std::string head_of(const DeepImage& image, const Metadata& metadata) {
 Result<std::string> deep_exr(const DeepImage& image, const Metadata& metadata) {
     assert(std::ranges::is_sorted(image.channels));  // the file's header sorts their names, but not their values
     std::string file;
+    ExrBytes bytes;
     try {
-        file = head_of(image, metadata);
+        file = head_of(image, metadata, bytes);
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& problem) {
+        bytes.rethrow_lack_of_memory(problem);
         return fail(Fault::usage, "deep.cannot_encode", "a deep image of {width} x {height} pixels cannot be made: {reason}",
                     image.width, image.lines.size(), problem.what());
     }

@@ -88,7 +88,7 @@ void StepRecorder::record(const PlannedStep& planned, const ComputeWork& work) {
 }
 
 void StepRecorder::record(const PlannedStep& planned, const DrawWork& work) {
-    begin_rendering(planned, {work.viewport, work.rows});
+    begin_rendering(planned, {.viewport = work.viewport, .rows = work.rows, .columns = work.columns});
     bind(planned);
     const DrawList& list = work.list;
     constexpr std::uint32_t stride = sizeof(vk::DrawIndexedIndirectCommand);
@@ -107,7 +107,7 @@ void StepRecorder::record(const PlannedStep& planned, const DrawWork& work) {
 }
 
 void StepRecorder::record(const PlannedStep& planned, const FullscreenWork& work) {
-    begin_rendering(planned, {work.viewport, {}});
+    begin_rendering(planned, {.viewport = work.viewport});
     bind(planned);
     commands_->draw(3, 1, 0, 0);
     commands_->endRendering();
@@ -169,7 +169,9 @@ void StepRecorder::begin_rendering(const PlannedStep& planned, const Pixels& pix
         }
     }
     const Rows rows = pixels.rows.value_or(Rows{0, extent.height});
-    const vk::Rect2D area({0, static_cast<std::int32_t>(rows.first)}, {extent.width, rows.count});
+    const PixelColumns columns = pixels.columns.value_or(PixelColumns{0, extent.width});
+    const vk::Rect2D area({static_cast<std::int32_t>(columns.first), static_cast<std::int32_t>(rows.first)},
+                          {columns.count, rows.count});
     commands_->beginRendering(vk::RenderingInfo({}, area, planned.layers, 0, colors, depth.imageView ? &depth : nullptr));
     const vk::Viewport whole(0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1);
     commands_->setViewport(0, whole);

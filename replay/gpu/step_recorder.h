@@ -32,10 +32,11 @@ private:
     /// What a step draws of its attachments: all of them where it says nothing.
     struct Pixels {
         std::optional<Extent> viewport;
-        std::optional<Rows> rows;
+        std::optional<Rows> rows = {};
+        std::optional<PixelColumns> columns = {};
     };
-    /// Begins a rendering scope over the step's attachments, or over the viewport where it has none. Rows are its scissor and its
-    /// render area: the viewport, and with it every coverage and depth, is the same with and without them.
+    /// Begins a rendering scope over the step's attachments, or over the viewport where it has none. Rows and columns are its
+    /// scissor and its render area: the viewport, and with it every coverage and depth, is the same with and without them.
     void begin_rendering(const PlannedStep&, const Pixels&);
     vk::RenderingAttachmentInfo attach(const PlannedStep&, const Attachment&);
 

@@ -19,7 +19,6 @@
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
-#include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
 #include <ImfThreading.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -31,6 +30,7 @@
 #include "capture_format/export/png.h"
 #include "capture_format/import/stb_problem.h"
 #include "capture_format/srgb.h"
+#include "replay/images/exr_bytes.h"
 
 namespace strata {
 namespace {
@@ -226,11 +226,11 @@ Result<void> write_exr(const std::filesystem::path& path, const NamedImages& ima
     std::vector<Imf::Header> headers;
     for (const LayerPart& part : parts) headers.push_back(header_of(part, metadata));
     if (!headers.empty()) share_display_window(headers);
-    Imf::StdOSStream stream;
+    ExrBytes bytes;
     try {
         const auto threads = static_cast<int>(std::thread::hardware_concurrency());
         if (Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
-        Imf::MultiPartOutputFile file(stream, headers.data(), static_cast<int>(headers.size()), false, threads);
+        Imf::MultiPartOutputFile file(bytes, headers.data(), static_cast<int>(headers.size()), false, threads);
         for (std::size_t i = 0; i < parts.size(); ++i) {
             LayerPart& part = parts[i];
             const std::size_t x_stride = part.channels.size() * part.channel_bytes;
@@ -246,9 +246,10 @@ Result<void> write_exr(const std::filesystem::path& path, const NamedImages& ima
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& problem) {
+        bytes.rethrow_lack_of_memory(problem);
         return fail(Fault::usage, "image.cannot_encode", "cannot write {file}: {reason}", path.string(), problem.what());
     }
-    return write_whole_file(path, stream.str());
+    return write_whole_file(path, bytes.take());
 }
 
 Result<NamedImages> read_exr(const std::filesystem::path& path) {

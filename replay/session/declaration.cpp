@@ -17,7 +17,8 @@ FrameImages start(const Sources& sources, Graph& graph) {
                        .features = &sources.loaded.features,
                        .facts = &sources.loaded.facts,
                        .extent = {frame.view.width, frame.view.height, 1},
-                       .samples = frame.view.samples};
+                       .samples = frame.view.samples,
+                       .makes_unused = !sources.loaded.variant.force.empty()};
     sources.scene.import_into(graph, images);
     return images;
 }

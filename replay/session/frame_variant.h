@@ -15,7 +15,7 @@ struct FrameVariant {
     std::uint32_t extent_divisor = 1;  ///< replays at extent / divisor, for quick truths
     std::uint32_t samples = 0;         ///< overrides the recorded samples when not 0
     EyeMove eye = {};                  ///< against the recorded one
-    std::vector<Feature> force;        ///< features switched on though the frame lacks them
+    std::vector<Feature> force;        ///< features switched on though the frame lacks them; unused products are then made, too
     friend bool operator==(const FrameVariant&, const FrameVariant&) = default;
 };
 

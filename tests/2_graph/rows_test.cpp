@@ -19,6 +19,7 @@ struct DrawnInRows {
         graph.keep(color);
     }
     void draw(Rows rows) { graph.draw("paint", list).covers(color).in_rows(rows); }
+    void draw_columns(PixelColumns columns) { graph.draw("paint", list).covers(color).in_rows({6, 12}).in_columns(columns); }
 
     Graph graph;
     Image color = graph.create("color", small_shape());
@@ -52,6 +53,18 @@ TEST(DrawsInRows, HaveAtLeastOneRow) {
     f.draw({8, 0});
     EXPECT_THAT(refusal(f.graph), FailsWith("graph.rows_out_of_range", Field("step", "paint"), Field("rows", 0),
                                             Field("first", 8), Field("height", 32)));
+}
+
+TEST(DrawsInColumns, AreSaidAndKeptWithin) {
+    DrawnInRows f, beyond, none;
+    f.draw_columns({32, 32});
+    EXPECT_THAT(describe(compiled(f.graph)), HasSubstr("    paint, columns 32 to 63, rows 6 to 17\n"));
+    beyond.draw_columns({33, 32});
+    EXPECT_THAT(refusal(beyond.graph), FailsWith("graph.columns_out_of_range", Field("step", "paint"), Field("columns", 32),
+                                                 Field("first", 33), Field("width", 64)));
+    none.draw_columns({3, 0});
+    EXPECT_THAT(refusal(none.graph), FailsWith("graph.columns_out_of_range", Field("step", "paint"), Field("columns", 0),
+                                               Field("first", 3), Field("width", 64)));
 }
 
 }  // namespace

@@ -29,10 +29,11 @@ inline std::uint64_t counter_of(const Run& run, std::string_view name) {
     return found == run.counters.end() ? 0 : found->value;
 }
 
-/// Few texels and steps: what is kept does not depend on them.
+/// Few texels and steps: what is kept does not depend on them. All volumes are lit, also those without a reader in view.
 inline Request coarse_light_of(std::size_t frame, std::vector<std::string> sets) {
     sets.insert(sets.begin(), {"map_size=32", "iterations=8"});
     Request request{.variant = {.frame = frame}, .choices = chosen({"indirect/lpv"}, sets)};
+    request.variant.force.assign(all_features().begin(), all_features().end());
     request.outputs = {"indirect"};
     return request;
 }

@@ -2,11 +2,14 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <new>
+#include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "capture_format/srgb.h"
+#include "replay/images/exr_bytes.h"
 #include "replay/images/image_io.h"
 #include "tests/support/errors.h"
 #include "tests/support/session.h"
@@ -109,6 +112,23 @@ TEST(DisplayByte, IsTheNearestOfTheSrgbCurve) {
     EXPECT_EQ(display_byte(7), std::byte{255});
     EXPECT_EQ(display_byte(HUGE_VAL), std::byte{0});
     EXPECT_EQ(display_byte(std::nan("")), std::byte{0});
+}
+
+/// OpenEXR passes on what its threads throw as an exception of its own, with the text alone.
+TEST(ExrBytes, TellALackOfMemoryFromOtherProblems) {
+    const std::runtime_error of_thread("std::bad_alloc"), of_file("a channel has no name");
+    ExrBytes bytes, starved;
+    bytes.write("abc", 3);
+    bytes.seekp(1);
+    bytes.write("xyz", 3);
+    EXPECT_EQ(bytes.tellp(), 4u);
+    EXPECT_THROW(bytes.rethrow_lack_of_memory(of_thread), std::bad_alloc);
+    EXPECT_NO_THROW(bytes.rethrow_lack_of_memory(of_file));
+    EXPECT_EQ(bytes.take(), "axyz");
+    starved.seekp(std::uint64_t{1} << 62);
+    EXPECT_ANY_THROW(starved.write("abc", 3));
+    EXPECT_THROW(starved.rethrow_lack_of_memory(of_file), std::bad_alloc);
+    EXPECT_THROW(starved.take(), std::bad_alloc);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/light.h"
@@ -11,6 +12,8 @@
 #include "passes/indirect/lpv/injection/injection.h"
 #include "passes/indirect/lpv/kept/kept.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
+#include "passes/scene/readers.h"
+#include "passes/scene/scene_facts.h"
 
 namespace strata::indirect {
 namespace {
@@ -26,6 +29,20 @@ std::uint32_t occlusion_of(const LightGrid& grid, std::uint32_t chosen) {
         default:
             return occlusion_none;
     }
+}
+
+/// The box around a grid in which surfaces may lie that read it: cells are read before surfaces.
+BoundingBox box_of_readers(const LpvParams& params, const LightGrid& grid) {
+    const double beyond = (double(params.reading) + 1) * grid.cell;
+    return {grid.origin - beyond, grid.origin + grid.cell * glm::dvec3(grid.cells) + beyond};
+}
+
+std::vector<DeviceGrid> used_grids(Graph& graph, const FrameImages& frame, const LpvParams& params, std::vector<DeviceGrid> all) {
+    return used_products(graph, frame, std::move(all), [&](const DeviceGrid& grid) {
+        return Product{.name = grid.name("light grid"),
+                       .is_used = frame.facts->readers().has_any_in(box_of_readers(params, grid.grid)),
+                       .unused_because = "nothing in view is in it"};
+    });
 }
 
 /// Adds the light of the second bounce.
@@ -93,6 +110,8 @@ std::vector<DeviceGrid> shown_grids(Graph& graph, const FrameImages& frame, cons
     // What surfaces in pieces do to light is not kept.
     const bool asks_surfels = params.bounces > 1 || std::ranges::any_of(grids, &DeviceGrid::is_fuzzy);
     const bool is_kept = params.relight == relight_changed && !asks_surfels;
+    // Light that comes in slices goes on while nothing reads it.
+    if (!is_kept || params.slice == 0) grids = used_grids(graph, frame, params, std::move(grids));
     KeptGrids kept;
     if (is_kept) kept = recall(graph, frame, params, grids);
     light(graph, frame, params, grids);

@@ -20,7 +20,8 @@ std::vector<DeviceGrid> make_grids(Graph&, const FrameImages&, const LpvParams&)
 /// Injected and propagated, all of it in this frame: for views, which change nothing that frames leave to the next.
 std::vector<DeviceGrid> lit_grids(Graph&, const FrameImages&, const LpvParams&);
 
-/// What surfaces read: lit_grids(), or with relight_changed what earlier frames left where nothing changed. Once per frame.
+/// The grids that surfaces and transparent fragments in view may read: lit_grids(), or with relight_changed what earlier frames
+/// left where nothing changed. Once per frame.
 std::vector<DeviceGrid> shown_grids(Graph&, const FrameImages&, const LpvParams&);
 
 }  // namespace strata::indirect

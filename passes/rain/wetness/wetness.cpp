@@ -1,5 +1,11 @@
 // Wet surfaces: a rain map along the rain's direction, and the G-buffer's surfaces with water on them.
+#include <cstdint>
+#include <numeric>
 #include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "capture_format/frame/draw.h"
 #include "capture_format/frame/frame.h"
@@ -11,6 +17,7 @@
 #include "passes/rain/look.h"
 #include "passes/rain/wetness/weather.h"
 #include "passes/scene/material_uses.h"
+#include "passes/scene/readers.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/stage_input.h"
 #include "passes/technique.h"
@@ -79,7 +86,14 @@ void draw_maps(Graph& graph, const FrameImages& frame, const WetnessParams& para
     Image layers = graph.create(std::string(map_name), {.extent = {size, size}, .format = Format::d32f, .layers = count});
     graph.clear(layers, {});
     const std::vector<DrawList> runs = caster_runs(frame, params.casters);
-    for (std::uint32_t i = 0; i < count; ++i) {
+    std::vector<std::uint32_t> places(count);
+    std::iota(places.begin(), places.end(), 0u);
+    places = used_products(graph, frame, std::move(places), [&](std::uint32_t i) {
+        return Product{.name = fmt::format("rain map {}", i),
+                       .is_used = frame.facts->readers().has_surfaces(),
+                       .unused_because = "no surface is in view"};
+    });
+    for (const std::uint32_t i : places) {
         const RainMap& at = maps[i];
         const glm::dvec4 one(0, 0, 0, 1);
         const glm::dmat4 to_map = glm::transpose(glm::dmat4(at.u * (2. / size) - one, at.v * (2. / size) - one, at.depth, one));

@@ -5,6 +5,7 @@
 #include "passes/choice_names.h"
 #include "passes/frame_images.h"
 #include "passes/scene/scene_facts.h"
+#include "passes/shadows/cast.h"
 #include "passes/shadows/filter.h"
 #include "passes/shadows/min_max/min_max.h"
 #include "passes/shadows/shadows.shared.h"
@@ -45,7 +46,8 @@ ComputeStep asking(ComputeStep builder, const FrameImages& frame, const MinMaxPa
 void filter_maps(Graph& graph, FrameImages& frame, const Settings& settings) {
     if (!frame.shadow_maps) return;
     const auto params = settings.as<MinMaxParams>();
-    frame.shadow_bounds = add_shadow_bounds(graph, frame.shadow_maps, views_of(frame), params.bounds());
+    const std::vector<ShadowView> drawn = drawn_views(frame, static_cast<Allocation>(frame.shadow_filter.allocation));
+    frame.shadow_bounds = add_shadow_bounds(graph, frame.shadow_maps, drawn, params.bounds());
     asking(filter_step(graph, frame, "shadows/min_max/filter.comp", frame.visibility), frame, params)
         .fixes("verifies", params.verify);
 }

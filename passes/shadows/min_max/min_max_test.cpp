@@ -73,7 +73,7 @@ std::vector<std::string> steps_of(std::string_view form, std::string_view kernel
     frame.lights = {{.type = LightType::round_spot, .shadow = {.casts = true, .map_size = 256}}};
     const SceneFacts facts(frame);
     Graph graph;
-    FrameImages images{.recorded = &facts.frame(), .facts = &facts, .extent = {width, rows}};
+    FrameImages images{.recorded = &facts.frame(), .facts = &facts, .extent = {width, rows}, .makes_unused = true};
     const Technique technique = min_max();
     Settings settings(technique.params);
     EXPECT_TRUE(settings.set("form", form));
@@ -131,7 +131,7 @@ TEST(min_max, does_nothing_where_no_light_has_a_map) {
     frame.sun.shadow.casts = false;
     Graph graph;
     const SceneFacts facts(frame);
-    FrameImages images{.recorded = &facts.frame(), .facts = &facts, .extent = {width, rows}};
+    FrameImages images{.recorded = &facts.frame(), .facts = &facts, .extent = {width, rows}, .makes_unused = true};
     const Technique technique = min_max();
     const Settings settings(technique.params);
     technique.declare(graph, images, settings);

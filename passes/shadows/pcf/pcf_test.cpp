@@ -95,7 +95,9 @@ std::vector<double> crossings(const ReferenceImage& image, double level) {
     return found;
 }
 
-FrameImages images_of(const SceneFacts& facts) { return {.recorded = &facts.frame(), .facts = &facts, .extent = {width, rows}}; }
+FrameImages images_of(const SceneFacts& facts) {
+    return {.recorded = &facts.frame(), .facts = &facts, .extent = {width, rows}, .makes_unused = true};
+}
 
 DrawList one_caster(Graph& graph) {
     return {.commands = graph.create("commands", 20), .indices = graph.create("indices", 12), .count = 1};

@@ -68,13 +68,18 @@ vec3 reflected_flux(LightRecord light, vec3 place, vec3 n, ivec3 at) {
 
 void main() {
     const ivec3 at = ivec3(gl_GlobalInvocationID);
-    if (any(greaterThanEqual(at.xy, textureSize(position, 0).xy))) return;
+    if (any(greaterThanEqual(at, textureSize(position, 0)))) return;  // a gate of six maps runs where fewer are drawn
     const vec4 place = texelFetch(position, at, 0);
     if (place.w == 0.0) return;
     const LightRecord light = lights[push.light];
     const vec3 to_light = light_has_range(light.type) ? light.position - place.xyz : -light.direction;
     const vec3 facing = texelFetch(normal, at, 0).xyz;
     const vec3 n = normalize(dot(facing, to_light) < 0.0 ? -facing : facing);
+    // Most surfaces of a lamp beside the grid: nothing needs their light.
+    if (!has_cell_before_it(push.grid, view.to_world * place.xyz, view.to_world * n, push.bias)) {
+        atomicAdd(counters.outside, 1u);
+        return;
+    }
     const vec3 flux = reflected_flux(light, place.xyz, n, at);
     if (flux != vec3(0.0)) inject(view.to_world * place.xyz, view.to_world * n, flux);
     if (!finished(view.extent.x)) atomicAdd(counters.unfinished, 1u);

@@ -66,8 +66,10 @@ void inject_lights(Graph& graph, const FrameImages& frame, const LpvParams& para
         for (DeviceGrid& grid : grids)
             if (injects(lights[i], grid.grid)) reached.push_back(&grid);
         if (has_range(lights[i].type)) {
-            if (!reached.empty())
-                inject(graph, casters, params, i, maps_around(*frame.recorded, lights[i], params.map_size), reached);
+            std::vector<const LightGrid*> lit;
+            for (const DeviceGrid* const grid : reached) lit.push_back(&grid->grid);
+            const LightMaps maps = maps_around(*frame.facts, lights[i], lit, params.map_size);
+            if (!maps.views.empty()) inject(graph, casters, params, i, maps, reached);
             continue;
         }
         for (DeviceGrid* const grid : reached)

@@ -1,7 +1,10 @@
 #include "passes/indirect/lpv/injection/maps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -9,6 +12,7 @@
 #include "capture_format/light_types.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
+#include "passes/scene/frustum.h"
 #include "passes/scene/light_pyramids.h"
 #include "passes/scene/material_uses.h"
 #include "passes/scene/scene_facts.h"
@@ -51,31 +55,159 @@ double extent(const Light& light, const LightGrid& grid) {
     return 2 * std::numbers::pi * round;
 }
 
-}  // namespace
+/// A cone from a light around a grid, which ends behind the grid.
+struct ConeTo {
+    glm::dvec3 towards;  ///< unit
+    double angle;        ///< radians, half; pi where the light is near the grid: everything around it
+    double length;       ///< meters
 
-LightMaps maps_around(const Frame& frame, const Light& light, std::uint32_t map_size) {
-    LightMaps maps{.views = {}, .size = map_size};
-    const glm::dvec3 position = in_view_space(frame.view, light.position);
-    const auto row = [&](const glm::dvec3& axis) { return glm::dvec4(axis, -glm::dot(axis, position)); };
-    constexpr double near = .05;  // meters; depth is reversed and infinite, so that it costs nothing to be near
-    for (const LightPyramid& pyramid : light_pyramids(frame, light)) {
-        maps.slopes = glm::vec2(pyramid.slopes);
-        maps.views.push_back(
-            rows(row(pyramid.u) / pyramid.slopes.x, row(pyramid.v()) / pyramid.slopes.y, {0, 0, 0, near}, row(pyramid.along)));
+    /// View space.
+    ConeTo(const glm::dvec3& light, const BoundingSphere& grid) {
+        const double away = glm::distance(light, grid.center);
+        towards = away > 0 ? (grid.center - light) / away : glm::dvec3(0, 0, 1);
+        angle = away > grid.radius ? std::asin(grid.radius / away) : std::numbers::pi;
+        length = away + grid.radius;
     }
-    return maps;
-}
+    /// The sphere's center is where it is seen from the light.
+    bool meets(const BoundingSphere& sphere) const {
+        const double away = glm::length(sphere.center);
+        if (away - sphere.radius > length) return false;
+        if (away <= sphere.radius || angle >= std::numbers::pi) return true;
+        const double between = std::acos(std::clamp(glm::dot(sphere.center, towards) / away, -1., 1.));
+        return !(between > angle + std::asin(sphere.radius / away) + 1e-6);
+    }
+};
 
-namespace {
-
-/// The box of a grid and a cell around it.
+/// The box of a grid and a cell around it: surfaces beside a cell light it.
 struct MappedBox {
     glm::dvec3 low, high;
     double cell;
 
     explicit MappedBox(const LightGrid& grid)
         : low(grid.origin - grid.cell), high(grid.origin + grid.cell * (glm::dvec3(grid.cells) + 1.)), cell(grid.cell) {}
+
+    /// View space.
+    std::array<glm::dvec3, 8> corners(const View& view) const {
+        std::array<glm::dvec3, 8> all = corners_of({low, high});
+        for (glm::dvec3& corner : all) corner = in_view_space(view, corner);
+        return all;
+    }
+    BoundingSphere sphere(const View& view) const {
+        return {in_view_space(view, .5 * (low + high)), .5 * glm::length(high - low)};
+    }
 };
+
+/// A place in view space as a map of the light at `from` sees it.
+glm::dvec3 seen_along(const LightPyramid& pyramid, const glm::dvec3& from, const glm::dvec3& place) {
+    const glm::dvec3 offset = place - from;
+    return {glm::dot(offset, pyramid.u), glm::dot(offset, pyramid.v()), glm::dot(offset, pyramid.along)};
+}
+
+constexpr double near = .05;  // meters; depth is reversed and infinite, so that it costs nothing to be near
+
+/// The part of a map in which boxes lie, x and y from -1 to 1.
+class SeenPart {
+public:
+    /// Corners as the map sees them, in the order of corners_of(): those of an edge differ in one bit.
+    void add(const std::array<glm::dvec3, 8>& corners, const glm::dvec2& slopes) {
+        for (unsigned i = 0; i < 8; ++i)
+            for (unsigned bit = 1; bit < 8; bit <<= 1)
+                if ((i & bit) == 0) add_edge(corners[i], corners[i | bit], slopes);
+    }
+    bool is_empty() const { return glm::any(glm::greaterThan(low_, high_)); }
+    /// A texel more on each side, as devices round edges.
+    MapPart texels(std::uint32_t size) const {
+        const auto texel = [&](double at) { return std::clamp((at + 1) / 2, 0., 1.) * size; };
+        const auto begin = [&](double at) { return std::uint32_t(std::max(std::floor(texel(at)) - 1, 0.)); };
+        const auto end = [&](double at) { return std::uint32_t(std::min(std::ceil(texel(at)) + 1, double(size))); };
+        return {.columns = {begin(low_.x), end(high_.x) - begin(low_.x)}, .rows = {begin(low_.y), end(high_.y) - begin(low_.y)}};
+    }
+
+private:
+    /// Adds the part of an edge before the map's near plane.
+    void add_edge(glm::dvec3 a, glm::dvec3 b, const glm::dvec2& slopes) {
+        if (a.z > b.z) std::swap(a, b);
+        if (b.z < near) return;
+        if (a.z < near) a += (b - a) * ((near - a.z) / (b.z - a.z));
+        for (const glm::dvec3& end : {a, b}) {
+            const glm::dvec2 at = glm::dvec2(end) / (slopes * end.z);
+            low_ = glm::min(low_, at), high_ = glm::max(high_, at);
+        }
+    }
+
+    glm::dvec2 low_{std::numeric_limits<double>::infinity()}, high_{-std::numeric_limits<double>::infinity()};
+};
+
+/// Joins runs until there are few, with unneeded casters in between.
+std::vector<CasterRun> joined(std::vector<CasterRun> runs) {
+    constexpr std::size_t most_runs = 8;
+    const auto gap = [&](std::size_t i) { return runs[i + 1].first - runs[i].first - runs[i].count; };
+    while (runs.size() > most_runs) {
+        std::size_t narrowest = 0;
+        for (std::size_t i = 1; i + 1 < runs.size(); ++i)
+            if (gap(i) < gap(narrowest)) narrowest = i;
+        runs[narrowest].count = runs[narrowest + 1].first + runs[narrowest + 1].count - runs[narrowest].first;
+        runs.erase(runs.begin() + std::ptrdiff_t(narrowest) + 1);
+    }
+    return runs;
+}
+
+/// `is_seen` is asked about the place of each caster in the list, and its sphere.
+template <typename IsSeen>
+std::vector<CasterRun> runs_of(const SceneFacts& facts, const IsSeen& is_seen) {
+    std::vector<CasterRun> runs;
+    const std::vector<std::uint32_t>& casters = facts.lists().casters;
+    for (std::uint32_t i = 0; i < casters.size(); ++i) {
+        if (!is_seen(i, facts.bounds().spheres[casters[i]])) continue;
+        if (runs.empty() || runs.back().first + runs.back().count < i) runs.push_back({i, 0});
+        ++runs.back().count;
+    }
+    return joined(std::move(runs));
+}
+
+/// Marks each caster that may stand between the light and one of the grids, or within.
+std::vector<bool> casters_between(const SceneFacts& facts, const glm::dvec3& light, std::span<const LightGrid* const> grids) {
+    std::vector<ConeTo> cones;
+    for (const LightGrid* const grid : grids) cones.emplace_back(light, MappedBox(*grid).sphere(facts.frame().view));
+    std::vector<bool> between;
+    for (const std::uint32_t draw : facts.lists().casters) {
+        const BoundingSphere& sphere = facts.bounds().spheres[draw];
+        const BoundingSphere seen{sphere.center - light, sphere.radius};
+        between.push_back(std::ranges::any_of(cones, [&](const ConeTo& cone) { return cone.meets(seen); }));
+    }
+    return between;
+}
+
+}  // namespace
+
+LightMaps maps_around(const SceneFacts& facts, const Light& light, std::span<const LightGrid* const> grids,
+                      std::uint32_t map_size) {
+    LightMaps maps{.size = map_size};
+    const View& view = facts.frame().view;
+    const glm::dvec3 position = in_view_space(view, light.position);
+    const auto row = [&](const glm::dvec3& axis) { return glm::dvec4(axis, -glm::dot(axis, position)); };
+    const std::vector<bool> between = casters_between(facts, position, grids);
+    for (const LightPyramid& pyramid : light_pyramids(facts.frame(), light)) {
+        const Frustum frustum(pyramid.slopes, near);
+        SeenPart part;
+        for (const LightGrid* const grid : grids) {
+            std::array<glm::dvec3, 8> corners = MappedBox(*grid).corners(view);
+            for (glm::dvec3& corner : corners) corner = seen_along(pyramid, position, corner);
+            if (frustum.meets(corners)) part.add(corners, pyramid.slopes);
+        }
+        if (part.is_empty()) continue;
+        maps.parts.push_back(part.texels(map_size));
+        maps.slopes = glm::vec2(pyramid.slopes);
+        maps.views.push_back(
+            rows(row(pyramid.u) / pyramid.slopes.x, row(pyramid.v()) / pyramid.slopes.y, {0, 0, 0, near}, row(pyramid.along)));
+        maps.casters.push_back(runs_of(facts, [&](std::uint32_t i, const BoundingSphere& caster) {
+            return between[i] && frustum.meets(BoundingSphere{seen_along(pyramid, position, caster.center), caster.radius});
+        }));
+    }
+    return maps;
+}
+
+namespace {
 
 /// Texels of parallel light on the lattice of a grid's cells. On the plane that faces the axis nearest to the light they are
 /// squares that are turned by 1 in n, so that n^2 + 1 of them make the square of a cell: a grid that is moved by whole cells has
@@ -143,6 +275,8 @@ LightMaps maps_over(const SceneFacts& facts, const Light& light, const LightGrid
     }
     before -= 1e-3 * (behind - before);  // so that no caster is clipped for a rounded depth above 1
     return {.views = {rows(x, y, glm::dvec4(-along, behind) / (behind - before), {0, 0, 0, 1})},
+            .casters = {runs_of(facts, [](std::uint32_t, const BoundingSphere&) { return true; })},
+            .parts = {{.columns = {0, size}, .rows = {0, size}}},
             .size = size,
             .texel_area = float(lattice.texel * lattice.texel * std::abs(lattice.along[lattice.facing]))};
 }
@@ -173,13 +307,19 @@ MapImages draw_maps(Graph& graph, const FrameImages& frame, const LightMaps& map
                      .albedo = image("lit albedos", Format::rgba16f)};
     Image depth = image("depth of a light's map", Format::d32f);
     for (std::uint32_t layer = 0; layer < maps.views.size(); ++layer) {
-        DrawStep draw = graph.draw("indirect/lpv/injection/map", frame.casters);
-        fix_materials(draw, frame, Surfaces::opaque)
-            .covers(images.position, {.layer = layer})
-            .covers(images.normal, {.layer = layer})
-            .covers(images.albedo, {.layer = layer})
-            .writes_depth(depth, {.layer = layer})
-            .push(maps.views[layer]);
+        for (const CasterRun& run : maps.casters[layer]) {
+            DrawList casters = frame.casters;
+            casters.first += run.first, casters.count = run.count;
+            DrawStep draw = graph.draw("indirect/lpv/injection/map", casters);
+            fix_materials(draw, frame, Surfaces::opaque)
+                .covers(images.position, {.layer = layer})
+                .covers(images.normal, {.layer = layer})
+                .covers(images.albedo, {.layer = layer})
+                .writes_depth(depth, {.layer = layer})
+                .in_rows(maps.parts[layer].rows)
+                .in_columns(maps.parts[layer].columns)
+                .push(maps.views[layer]);
+        }
     }
     return images;
 }

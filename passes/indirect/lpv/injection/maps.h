@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "passes/graph/step.h"
@@ -20,16 +21,28 @@ struct Light;        // capture_format/frame/light.h
 
 namespace strata::indirect {
 
+/// Casters that stand together in FrameImages::casters.
+struct CasterRun {
+    std::uint32_t first = 0, count = 0;
+};
+
+struct MapPart {
+    PixelColumns columns;
+    Rows rows;
+};
+
 /// Of one light: where each map looks, and what makes watts of a texel's light.
 struct LightMaps {
     std::vector<MapPush> views;
-    std::uint32_t size = 0;  ///< texels a side
-    glm::vec2 slopes{0};     ///< of the maps' sides; 0 for parallel light
-    float texel_area = 0;    ///< of parallel light, square meters
+    std::vector<std::vector<CasterRun>> casters;  ///< by view: those that may reflect into a grid, or stand before what does
+    std::vector<MapPart> parts;                   ///< by view: the texels that may see a surface that does
+    std::uint32_t size = 0;                       ///< texels a side
+    glm::vec2 slopes{0};                          ///< of the maps' sides; 0 for parallel light
+    float texel_area = 0;                         ///< of parallel light, square meters
 };
 
-/// Of a light that has a position: one map of a spot, else six.
-LightMaps maps_around(const Frame&, const Light&, std::uint32_t map_size);
+/// Of a light that has a position: one map of a spot, else six, without those that see nothing of any of the grids.
+LightMaps maps_around(const SceneFacts&, const Light&, std::span<const LightGrid* const>, std::uint32_t map_size);
 /// One map of parallel light over the grid, three times as large. A grid that moves by whole cells up or down has other texels on
 /// its walls: the light of `courtyard` changes by 11 % with as large a map, by 2.7 % with one twice as large.
 LightMaps maps_over(const SceneFacts&, const Light&, const LightGrid&, std::uint32_t map_size);

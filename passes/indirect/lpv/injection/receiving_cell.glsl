@@ -43,7 +43,12 @@ ivec3 guarded_cell(GridPlace grid, vec3 surface, vec3 n, ivec3 first, vec3 biase
     return ivec3(-1);
 }
 
-// None: x < 0. Places are relative to the eye, along the world's axes; bias in cells.
+// Whether the cell before the surface is one of the grid's. Places are relative to the eye, along the world's axes; bias in cells.
+bool has_cell_before_it(GridPlace grid, vec3 surface, vec3 n, float bias) {
+    return in_grid(grid, taking_cell(grid, surface + n * (bias * grid.cell), n));
+}
+
+// None: x < 0.
 ivec3 receiving_cell(GridPlace grid, vec3 surface, vec3 n, float bias) {
     const vec3 biased = surface + n * (bias * grid.cell);
     const ivec3 first = taking_cell(grid, biased, n);

@@ -1,0 +1,70 @@
+// Readers of what is made for places, by bounds: never too few.
+#include "passes/scene/readers.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "capture_format/frame/draw.h"
+#include "capture_format/frame/frame.h"
+#include "capture_format/frame/material.h"
+#include "capture_format/frame/mesh.h"
+#include "capture_format/frame/particles.h"
+#include "passes/scene/scene_facts.h"
+
+namespace strata {
+namespace {
+
+/// An eye at the origin that looks along +z; its image is as wide as it is far.
+Frame empty_view() {
+    Frame frame;
+    frame.view.projection[0][0] = frame.view.projection[1][1] = 2;
+    frame.view.projection[2][3] = 1;
+    frame.materials.emplace_back();
+    return frame;
+}
+
+void add_square(Frame& frame, const glm::dvec3& center, float half) {
+    frame.meshes.push_back({.positions = {{-half, 0, -half}, {half, 0, -half}, {half, 0, half}}});
+    Draw& draw = frame.draws.emplace_back();
+    draw.mesh = static_cast<std::uint32_t>(frame.meshes.size() - 1);
+    draw.to_world[3] = glm::dvec4(center, 1);
+}
+
+TEST(Readers, AreNotOfAFloorBehindTheEyeThoughItsSphereReachesIntoView) {
+    Frame behind = empty_view(), below = empty_view();
+    add_square(behind, {0, -1, -5.1}, 5);
+    EXPECT_FALSE(SceneFacts(behind).readers().has_surfaces());
+    add_square(below, {0, -1, 0}, 5);
+    EXPECT_TRUE(SceneFacts(below).readers().has_surfaces());
+}
+
+TEST(Readers, AreWhereDrawsAndWhatTheyReadMeet) {
+    Frame frame = empty_view();
+    add_square(frame, {0, -.5, 10}, 1);
+    const SceneFacts facts(frame);
+    const Readers& readers = facts.readers();
+    EXPECT_TRUE(readers.has_any_in({{-1, -1, 8}, {1, 1, 9.5}}));
+    EXPECT_FALSE(readers.has_any_in({{-1, -1, 4}, {1, 1, 5}})) << "before it";
+    EXPECT_FALSE(readers.has_any_in({{-1, -1, -9}, {1, 1, -8}})) << "behind the eye";
+    EXPECT_TRUE(readers.has_surfaces_in({{0, 0, 7}, 2.5}));
+    EXPECT_FALSE(readers.has_surfaces_in({{0, 0, 7}, 1}));
+    EXPECT_TRUE(readers.has_surfaces_between(11, 20));
+    EXPECT_FALSE(readers.has_surfaces_between(12, 20));
+    frame.view.samples = 4;
+    EXPECT_TRUE(readers.has_any_in({{-1, -1, 4}, {1, 1, 5}})) << "places of edges may lie anywhere";
+}
+
+TEST(Readers, OfParticlesAtInfinityAreEverywhere) {
+    Frame frame = empty_view();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    frame.emitters.push_back({.particles = {{.center = {0, 0, 5}}, {.center = {infinity, 0, 0}}}});
+    const SceneFacts facts(frame);
+    EXPECT_TRUE(facts.readers().has_any_in({{-1, -1, 4}, {1, 1, 6}}));
+    frame.emitters[0].particles.pop_back();
+    frame.emitters[0].particles[0].center.z = -5;
+    EXPECT_FALSE(SceneFacts(frame).readers().has_any_in({{-1, -1, -6}, {1, 1, 6}})) << "behind the eye";
+}
+
+}  // namespace
+}  // namespace strata
