@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <span>
 
@@ -67,7 +68,7 @@ void inject_lights(Graph& graph, const FrameImages& frame, const LpvParams& para
             if (injects(lights[i], grid.grid)) reached.push_back(&grid);
         if (has_range(lights[i].type)) {
             std::vector<const LightGrid*> lit;
-            for (const DeviceGrid* const grid : reached) lit.push_back(&grid->grid);
+            std::ranges::transform(reached, std::back_inserter(lit), [](const DeviceGrid* grid) { return &grid->grid; });
             const LightMaps maps = maps_around(*frame.facts, lights[i], lit, params.map_size);
             if (!maps.views.empty()) inject(graph, casters, params, i, maps, reached);
             continue;
