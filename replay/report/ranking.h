@@ -22,11 +22,11 @@ struct RankingError {
 /// What a row is ranked by. Without an error it is not ranked: the technique cannot do the frame.
 struct Standing {
     std::optional<double> error;
-    double rounding = 0;                      ///< errors below it are equal
     double time = 0;                          ///< in whatever unit all rows have
     double spread = 0;                        ///< of time: two times that differ by less than both spreads are equal
     double bytes_per_pixel = 0;               ///< whole ones: the few bytes of a counter are no cost
     double ms = 0, ms_spread = 0, bytes = 0;  ///< what limits that are no multiples are of
+    double rounding = 0;                      ///< errors below it are equal
     /// The error as rows are compared by it. Only of those that are ranked.
     double compared_error() const { return *error < rounding ? 0 : *error; }
 };

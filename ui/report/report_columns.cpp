@@ -160,7 +160,7 @@ std::vector<bool> front_of(const Report& report, const ReportColumn& error, cons
         const auto spent = cost.size(row);
         const bool is_ranked = spent && !report.rows[row].has_other_truth;
         standings.push_back(
-            {.error = is_ranked ? error.size(row) : std::nullopt, .rounding = error.rounding, .time = spent.value_or(0)});
+            {.error = is_ranked ? error.size(row) : std::nullopt, .time = spent.value_or(0), .rounding = error.rounding});
     }
     return pareto_front(standings, &Standing::time);
 }
