@@ -39,6 +39,17 @@ TEST(Readers, AreNotOfAFloorBehindTheEyeThoughItsSphereReachesIntoView) {
     EXPECT_TRUE(SceneFacts(below).readers().has_surfaces());
 }
 
+/// Half as wide as it is far: at 10 m the image ends 5 m beside the middle.
+TEST(Readers, ReachToTheEdgesOfTheImageAndNoFarther) {
+    for (const glm::dvec3& side : {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0)}) {
+        Frame within = empty_view(), beside = empty_view();
+        add_square(within, 4.8 * side + glm::dvec3(0, 0, 10), .1f);
+        add_square(beside, 5.3 * side + glm::dvec3(0, 0, 10), .1f);
+        EXPECT_TRUE(SceneFacts(within).readers().has_surfaces());
+        EXPECT_FALSE(SceneFacts(beside).readers().has_surfaces());
+    }
+}
+
 TEST(Readers, AreWhereDrawsAndWhatTheyReadMeet) {
     Frame frame = empty_view();
     add_square(frame, {0, -.5, 10}, 1);
