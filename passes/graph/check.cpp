@@ -313,12 +313,13 @@ Result<void> check_rows(const Graph& graph, const Step& step, const DrawWork& dr
     if (!draw.rows && !draw.columns) return {};
     const Extent extent = drawn_extent(graph, step, draw);
     if (draw.rows && !are_within(*draw.rows, extent.height))
-        return fail(Fault::usage, "graph.rows_out_of_range", "{step} draws {rows} rows from row {first}, but there are {height}",
-                    step.name, draw.rows->count, draw.rows->first, extent.height);
+        return fail(Fault::usage, "graph.rows_out_of_range",
+                    "{step} draws {rows} rows from row {first} of an image that has {height} rows", step.name, draw.rows->count,
+                    draw.rows->first, extent.height);
     if (draw.columns && !are_within(*draw.columns, extent.width))
         return fail(Fault::usage, "graph.columns_out_of_range",
-                    "{step} draws {columns} columns from column {first}, but there are {width}", step.name, draw.columns->count,
-                    draw.columns->first, extent.width);
+                    "{step} draws {columns} columns from column {first} of an image that has {width} columns", step.name,
+                    draw.columns->count, draw.columns->first, extent.width);
     return {};
 }
 

@@ -26,6 +26,12 @@ std::array<glm::dvec3, 8> corners_of(const BoundingBox& box) {
     return corners;
 }
 
+std::array<glm::dvec3, 8> view_corners_of(const View& view, const BoundingBox& world) {
+    std::array<glm::dvec3, 8> corners = corners_of(world);
+    for (glm::dvec3& corner : corners) corner = in_view_space(view, corner);
+    return corners;
+}
+
 BoundingSphere sphere_around(const Frame& frame, const Draw& draw, const BoundingBox& box) {
     const auto placed = [&](const glm::dvec3& p) {
         return in_view_space(frame.view, glm::dvec3(draw.to_world * glm::dvec4(p, 1)));

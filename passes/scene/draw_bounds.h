@@ -11,6 +11,7 @@ namespace strata {
 
 struct Draw;   // capture_format/frame/draw.h
 struct Frame;  // capture_format/frame.h
+struct View;   // capture_format/view.h
 
 /// In object space; the origin alone where there are no points.
 struct BoundingBox {
@@ -18,6 +19,8 @@ struct BoundingBox {
 };
 BoundingBox box_around(std::span<const glm::vec3> points);
 std::array<glm::dvec3, 8> corners_of(const BoundingBox&);
+/// The corners in view space of a box in the world.
+std::array<glm::dvec3, 8> view_corners_of(const View&, const BoundingBox& world);
 
 /// In view space.
 struct BoundingSphere {

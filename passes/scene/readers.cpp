@@ -1,5 +1,6 @@
 #include "passes/scene/readers.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <numbers>
@@ -12,12 +13,6 @@
 namespace strata {
 namespace {
 
-std::array<glm::dvec3, 8> in_view_space(const View& view, const BoundingBox& world) {
-    std::array<glm::dvec3, 8> corners = corners_of(world);
-    for (glm::dvec3& corner : corners) corner = strata::in_view_space(view, corner);
-    return corners;
-}
-
 /// A sphere is a loose bound of a floor: where it does not decide, the draw's own box does.
 bool may_show(const Frame& frame, const Frustum& frustum, const DrawBounds& bounds, std::uint32_t index) {
     const BoundingSphere& sphere = bounds.spheres[index];
@@ -25,8 +20,7 @@ bool may_show(const Frame& frame, const Frustum& frustum, const DrawBounds& boun
     if (frustum.contains(sphere)) return true;
     const Draw& draw = frame.draws[index];
     std::array<glm::dvec3, 8> corners = corners_of(bounds.boxes[draw.mesh]);
-    for (glm::dvec3& corner : corners)
-        corner = strata::in_view_space(frame.view, glm::dvec3(draw.to_world * glm::dvec4(corner, 1)));
+    for (glm::dvec3& corner : corners) corner = in_view_space(frame.view, glm::dvec3(draw.to_world * glm::dvec4(corner, 1)));
     return frustum.meets(corners);
 }
 
@@ -91,7 +85,7 @@ bool Readers::has_surfaces_in(const BoundingSphere& sphere) const {
 
 bool Readers::has_any_in(const BoundingBox& world) const {
     if (!has_exact_places(*frame_)) return has_surfaces() || !fragments_.empty();
-    if (!frustum_.meets(in_view_space(frame_->view, world))) return false;
+    if (!frustum_.meets(view_corners_of(frame_->view, world))) return false;
     const auto meets_box = [&](const BoundingSphere& sphere) {
         const glm::dvec3 center = glm::transpose(frame_->view.to_view) * sphere.center + frame_->view.origin;
         return !(glm::distance(glm::clamp(center, world.low, world.high), center) > sphere.radius);

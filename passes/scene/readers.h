@@ -2,7 +2,8 @@
 // where each of its products is read; used_products() leaves out the others.
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -43,16 +44,17 @@ struct Product {
     std::string unused_because;  ///< "no surface is in view"
 };
 
-/// The parts that are used; the graph lists the others as left out. All of them where FrameImages::makes_unused.
-template <typename Part, typename ProductOf>
-std::vector<Part> used_products(Graph& graph, const FrameImages& frame, std::vector<Part> parts, const ProductOf& product_of) {
-    if (frame.makes_unused) return parts;
-    std::erase_if(parts, [&](const Part& part) {
-        const Product product = product_of(part);
-        if (!product.is_used) graph.leave_out(product.name, product.unused_because);
-        return !product.is_used;
-    });
-    return parts;
+/// Numbers of the products that are used, below `count`; the graph lists the others as left out. All of them where
+/// FrameImages::makes_unused.
+template <typename ProductOf>
+std::vector<std::uint32_t> used_products(Graph& graph, const FrameImages& frame, std::size_t count, const ProductOf& product_of) {
+    std::vector<std::uint32_t> used;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Product product = frame.makes_unused ? Product() : product_of(i);
+        if (product.is_used) used.push_back(i);
+        else graph.leave_out(product.name, product.unused_because);
+    }
+    return used;
 }
 
 }  // namespace strata

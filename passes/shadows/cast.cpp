@@ -1,9 +1,6 @@
 // Draws the casters into shadow maps.
 #include "passes/shadows/cast.h"
 
-#include <numeric>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -31,31 +28,30 @@ uint mode_of(CasterMask mask) {
     return mask == CasterMask::dither ? gbuffer::masked_dithered : gbuffer::masked_clip;
 }
 
-/// Readers of a map: surfaces in its light's reach, and the air that shafts of the sun cross.
-Product product_of(const FrameImages& frame, std::span<const ShadowView> views, std::uint32_t slot) {
-    const ShadowView& view = views[slot];
+/// The readers of a map are surfaces in its light's reach, and the air that shafts of the sun cross.
+bool is_read(const FrameImages& frame, const ShadowView& view) {
     const Light& light = frame.facts->lights()[view.light];
     const Readers& readers = frame.facts->readers();
-    if (has_range(light.type)) {
-        const BoundingSphere reached{in_view_space(frame.recorded->view, light.position),
-                                     double(light.range + light.source_radius)};
-        return {.name = fmt::format("shadow map {} of '{}'", slot, light.name),
-                .is_used = readers.has_surfaces_in(reached),
-                .unused_because = "no surface in view is in the light's range"};
-    }
+    if (has_range(light.type))
+        return readers.has_surfaces_in(
+            {in_view_space(frame.recorded->view, light.position), double(light.range + light.source_radius)});
     const bool is_read_by_air = !info(Stage::sun_shafts).unwanted(*frame.features);
-    return {.name = fmt::format("shadow map {} of the sun", slot),
-            .is_used = is_read_by_air || readers.has_surfaces_between(view.read_from, view.range_end),
-            .unused_because = "no surface in view is in its range of depth"};
+    return is_read_by_air || readers.has_surfaces_between(view.read_from, view.range_end);
+}
+
+Product product_of(const FrameImages& frame, const ShadowView& view, std::uint32_t slot) {
+    const Light& light = frame.facts->lights()[view.light];
+    const bool has_end = has_range(light.type);
+    return {.name = fmt::format("shadow map {} of {}", slot, has_end ? "'" + light.name + "'" : "the sun"),
+            .is_used = is_read(frame, view),
+            .unused_because = fmt::format("no surface in view is in {}", has_end ? "the light's range" : "its range of depth")};
 }
 
 }  // namespace
 
 std::vector<ShadowView> drawn_views(const FrameImages& frame, Allocation allocation) {
-    const std::vector<ShadowView>& views = frame.facts->shadow_views(allocation);
-    std::vector<ShadowView> drawn;
-    for (std::uint32_t slot = 0; slot < views.size(); ++slot)
-        if (frame.makes_unused || product_of(frame, views, slot).is_used) drawn.push_back(views[slot]);
+    std::vector<ShadowView> drawn = frame.facts->shadow_views(allocation);
+    if (!frame.makes_unused) std::erase_if(drawn, [&](const ShadowView& view) { return !is_read(frame, view); });
     return drawn;
 }
 
@@ -64,14 +60,13 @@ void cast_maps(Graph& graph, FrameImages& frame, Allocation allocation, CasterMa
     if (views.empty()) return;
     const MapLayers in = map_layers(views);
     const auto count = static_cast<std::uint32_t>(views.size());
-    std::vector<std::uint32_t> slots(count);
-    std::iota(slots.begin(), slots.end(), 0u);
-    slots = used_products(graph, frame, std::move(slots), [&](std::uint32_t slot) { return product_of(frame, views, slot); });
+    const std::vector<std::uint32_t> used =
+        used_products(graph, frame, count, [&](std::uint32_t slot) { return product_of(frame, views[slot], slot); });
     frame.shadow_maps =
         graph.create("shadow_maps", {.extent = {in.extent, in.extent}, .format = Format::d32f, .layers = in.layers});
     graph.clear(frame.shadow_maps, {});
     const gbuffer::Coverage coverage = gbuffer::declare_coverage_of_texels(graph, frame, mode_of(mask));
-    for (const std::uint32_t slot : slots) {
+    for (const std::uint32_t slot : used) {
         const bool is_alone = allocation == Allocation::own;
         const std::uint32_t viewport = is_alone ? views[slot].size : in.extent;
         DrawStep cast = graph.draw("shadows/cast", frame.casters);

@@ -39,7 +39,7 @@ TEST(Readers, AreNotOfAFloorBehindTheEyeThoughItsSphereReachesIntoView) {
     EXPECT_TRUE(SceneFacts(below).readers().has_surfaces());
 }
 
-/// Half as wide as it is far: at 10 m the image ends 5 m beside the middle.
+/// At 10 m the image ends 5 m beside its middle.
 TEST(Readers, ReachToTheEdgesOfTheImageAndNoFarther) {
     for (const glm::dvec3& side : {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0)}) {
         Frame within = empty_view(), beside = empty_view();

@@ -138,7 +138,7 @@ TEST(Answers, AreTheFastestRowThatKeepsAllLimits) {
     EXPECT_EQ(find_answer(inexact, {}, {.within = 2}).recommended, 1u) << "the most accurate where no error is asked";
 }
 
-/// Which of two is the faster one changes from run to run.
+/// The order of times within their spreads changes from run to run.
 TEST(Answers, AreTheMostAccurateOfWhatIsAsFast) {
     std::vector<Standing> rows = {{.error = .006, .time = 2.3, .spread = .1}, {.error = .001, .time = 2.4, .spread = .05}};
     EXPECT_EQ(find_answer(rows, {}, {.error = .01}).recommended, 1u);

@@ -268,7 +268,7 @@ Technique lpv() {
                  {.name = "guarded", .help = "VPLs injected into a neighboring cell because a blocker hides the nearest one"}),
              counter<&LpvCounters::dropped>({.name = "dropped", .help = "VPLs lost because blockers hide all cells near them"}),
              counter<&LpvCounters::outside>(
-                 {.name = "outside", .help = "surfaces in maps that see a grid, but lie outside it: they inject nothing"}),
+                 {.name = "outside", .help = "surfaces outside the grid in maps that see it; they inject nothing"}),
              counter<&LpvCounters::samples>({.name = "samples", .help = "samples lit by a grid, summed over all grids"}),
              counter<&LpvCounters::hidden_taps>(
                  {.name = "hidden taps",

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <span>
 
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/light.h"
@@ -37,12 +37,16 @@ BoundingBox box_of_readers(const LpvParams& params, const LightGrid& grid) {
     return {grid.origin - beyond, grid.origin + grid.cell * glm::dvec3(grid.cells) + beyond};
 }
 
-std::vector<DeviceGrid> used_grids(Graph& graph, const FrameImages& frame, const LpvParams& params, std::vector<DeviceGrid> all) {
-    return used_products(graph, frame, std::move(all), [&](const DeviceGrid& grid) {
-        return Product{.name = grid.name("light grid"),
-                       .is_used = frame.facts->readers().has_any_in(box_of_readers(params, grid.grid)),
+std::vector<DeviceGrid> used_grids(Graph& graph, const FrameImages& frame, const LpvParams& params,
+                                   std::span<const DeviceGrid> all) {
+    std::vector<DeviceGrid> used;
+    const auto product_of = [&](std::uint32_t i) {
+        return Product{.name = all[i].name("light grid"),
+                       .is_used = frame.facts->readers().has_any_in(box_of_readers(params, all[i].grid)),
                        .unused_because = "nothing in view is in it"};
-    });
+    };
+    for (const std::uint32_t i : used_products(graph, frame, all.size(), product_of)) used.push_back(all[i]);
+    return used;
 }
 
 /// Adds the light of the second bounce.
@@ -111,7 +115,7 @@ std::vector<DeviceGrid> shown_grids(Graph& graph, const FrameImages& frame, cons
     const bool asks_surfels = params.bounces > 1 || std::ranges::any_of(grids, &DeviceGrid::is_fuzzy);
     const bool is_kept = params.relight == relight_changed && !asks_surfels;
     // Light that comes in slices goes on while nothing reads it.
-    if (!is_kept || params.slice == 0) grids = used_grids(graph, frame, params, std::move(grids));
+    if (!is_kept || params.slice == 0) grids = used_grids(graph, frame, params, grids);
     KeptGrids kept;
     if (is_kept) kept = recall(graph, frame, params, grids);
     light(graph, frame, params, grids);

@@ -1,8 +1,6 @@
 // Wet surfaces: a rain map along the rain's direction, and the G-buffer's surfaces with water on them.
 #include <cstdint>
-#include <numeric>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -86,14 +84,12 @@ void draw_maps(Graph& graph, const FrameImages& frame, const WetnessParams& para
     Image layers = graph.create(std::string(map_name), {.extent = {size, size}, .format = Format::d32f, .layers = count});
     graph.clear(layers, {});
     const std::vector<DrawList> runs = caster_runs(frame, params.casters);
-    std::vector<std::uint32_t> places(count);
-    std::iota(places.begin(), places.end(), 0u);
-    places = used_products(graph, frame, std::move(places), [&](std::uint32_t i) {
+    const std::vector<std::uint32_t> used = used_products(graph, frame, count, [&](std::uint32_t i) {
         return Product{.name = fmt::format("rain map {}", i),
                        .is_used = frame.facts->readers().has_surfaces(),
                        .unused_because = "no surface is in view"};
     });
-    for (const std::uint32_t i : places) {
+    for (const std::uint32_t i : used) {
         const RainMap& at = maps[i];
         const glm::dvec4 one(0, 0, 0, 1);
         const glm::dmat4 to_map = glm::transpose(glm::dmat4(at.u * (2. / size) - one, at.v * (2. / size) - one, at.depth, one));

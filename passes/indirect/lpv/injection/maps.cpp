@@ -87,11 +87,6 @@ struct MappedBox {
         : low(grid.origin - grid.cell), high(grid.origin + grid.cell * (glm::dvec3(grid.cells) + 1.)), cell(grid.cell) {}
 
     /// View space.
-    std::array<glm::dvec3, 8> corners(const View& view) const {
-        std::array<glm::dvec3, 8> all = corners_of({low, high});
-        for (glm::dvec3& corner : all) corner = in_view_space(view, corner);
-        return all;
-    }
     BoundingSphere sphere(const View& view) const {
         return {in_view_space(view, .5 * (low + high)), .5 * glm::length(high - low)};
     }
@@ -191,7 +186,8 @@ LightMaps maps_around(const SceneFacts& facts, const Light& light, std::span<con
         const Frustum frustum(pyramid.slopes, near);
         SeenPart part;
         for (const LightGrid* const grid : grids) {
-            std::array<glm::dvec3, 8> corners = MappedBox(*grid).corners(view);
+            const MappedBox box(*grid);
+            std::array<glm::dvec3, 8> corners = view_corners_of(view, {box.low, box.high});
             for (glm::dvec3& corner : corners) corner = seen_along(pyramid, position, corner);
             if (frustum.meets(corners)) part.add(corners, pyramid.slopes);
         }
@@ -285,9 +281,8 @@ bool injects(const Light& light, const LightGrid& grid) {
     // Flux that is no number would be in the scale of all sums.
     if (!std::isfinite(most_flux(light, grid)) || strongest(light) <= 0) return false;
     if (!has_range(light.type)) return true;
-    // A surface may be a cell beside the cell that it lights.
-    const glm::dvec3 low = grid.origin - grid.cell, high = grid.origin + (glm::dvec3(grid.cells) + 1.) * grid.cell;
-    return glm::distance(glm::clamp(light.position, low, high), light.position) < double(light.range);
+    const MappedBox box(grid);
+    return glm::distance(glm::clamp(light.position, box.low, box.high), light.position) < double(light.range);
 }
 
 double most_flux(const Light& light, const LightGrid& grid) {

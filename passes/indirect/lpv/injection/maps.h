@@ -41,7 +41,7 @@ struct LightMaps {
     float texel_area = 0;                         ///< of parallel light, square meters
 };
 
-/// Of a light that has a position: one map of a spot, else six, without those that see nothing of any of the grids.
+/// The maps of a light that has a position: one of a spot, else six, without those that see nothing of any of the grids.
 LightMaps maps_around(const SceneFacts&, const Light&, std::span<const LightGrid* const>, std::uint32_t map_size);
 /// One map of parallel light over the grid, three times as large. A grid that moves by whole cells up or down has other texels on
 /// its walls: the light of `courtyard` changes by 11 % with as large a map, by 2.7 % with one twice as large.

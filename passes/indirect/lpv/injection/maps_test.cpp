@@ -1,4 +1,4 @@
-// What maps of lights leave out, against rays at random: nothing that reflects into a grid, and nothing that hides such a place.
+// Maps of lights hold everything that reflects into a grid and everything that hides such a place: against rays at random.
 #include "passes/indirect/lpv/injection/maps.h"
 
 #include <gtest/gtest.h>
