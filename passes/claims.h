@@ -48,6 +48,7 @@ struct TimeRatio {
     std::vector<Stage> stages = {};
     /// What differs between the frames of the two ways.
     FrameChange of_frame = {}, against_frame = {};
+    bool of_unchanged = false;  ///< the one is timed in a frame that follows itself (Abilities::keeps_work)
 };
 
 /// What is stated of a technique, and measured.

@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "capture_format/frame/frame.h"
 #include "passes/graph/graph.h"
 
 namespace strata {
@@ -60,6 +61,11 @@ const FrameImageRow* find_frame_image(std::string_view name) {
     for (const FrameImageRow& candidate : rows)
         if (candidate.name == name) return &candidate;
     return nullptr;
+}
+
+float sample_near(const FrameImages& images) {
+    const bool are_at_sample = images.samples == 1 || has(images.capabilities, Capability::sample_varyings);
+    return are_at_sample ? 0.f : images.recorded->view.near;
 }
 
 Image spread(Graph& graph, const Image& multisampled, std::string_view name) {

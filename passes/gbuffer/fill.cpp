@@ -65,7 +65,7 @@ DrawStep fill_pass(Graph& graph, FrameImages& frame, const Layout& layout, const
     DrawStep fill = graph.draw(fmt::format("{}/fill{}", layout.technique, at_sample ? "_sample" : ""), frame.opaque);
     fix_materials(fill, frame, Surfaces::opaque);
     add_coverage(fill, coverage);
-    if (at_sample) fill.fixes("sample_near", frame.recorded->view.near);
+    if (at_sample) fill.fixes("sample_near", sample_near(frame));
     // The shader discards backs draw by draw: the same pixels, shaded in vain.
     if (shows_no_backs(*frame.recorded, frame.facts->lists().opaque)) fill.culls(Cull::back);
     if (has_depth) fill.tests_depth(frame.depth).at_equal_depth();

@@ -10,12 +10,12 @@ layout(location = 3) sample in vec4 in_uv;
 layout(location = 4) sample in vec4 in_color;
 layout(location = 6) flat in uint in_draw;
 
-layout(constant_id = 2) const float sample_near = 0.0;  // the near plane
+layout(constant_id = 2) const float sample_near = 0.0;  // the near plane; 0: varyings are the sample's
 
 // What takes a varying to the sample. lavapipe 22.3 interpolates `sample` varyings there but divides by the w of the pixel's center
-// (docs/algorithms/deferred.md 0.3); gl_FragCoord.z is the sample's. Where varyings are the sample's, this is 1 up to rounding. A
-// constant and not view.near: helper lanes read zeros from buffers there, and uv needs its derivatives.
-float to_sample() { return sample_near / (gl_FragCoord.z * in_position.z); }
+// (docs/algorithms/deferred.md 0.3); gl_FragCoord.z is the sample's. A constant and not view.near: helper lanes read zeros from buffers
+// there, and uv needs its derivatives.
+float to_sample() { return sample_near > 0.0 ? sample_near / (gl_FragCoord.z * in_position.z) : 1.0; }
 
 Varyings varyings() {
     const float scale = to_sample();

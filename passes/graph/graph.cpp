@@ -112,6 +112,12 @@ Self& StepBuilder<Self>::fixes(std::string name, SpecValue value) {
     return self();
 }
 
+template <typename Self>
+Self& StepBuilder<Self>::takes_first(const std::string& prefix) {
+    step().offers_first = prefix.empty() ? prefix : prefix + " ";
+    return self();
+}
+
 ComputeStep& ComputeStep::over(Extent threads) {
     std::get<ComputeWork>(step().work).over = threads;
     return *this;
@@ -318,11 +324,11 @@ Buffer Graph::import(std::string name, std::uint64_t size, ImportId id) {
     return {static_cast<std::uint32_t>(buffers_.size() - 1), 0};
 }
 
-Buffer Graph::remember(std::string name, std::uint64_t size) {
+Buffer Graph::remember(std::string name, std::uint64_t size, Remembered as) {
     const std::uint64_t of_host = std::uint64_t(1) << 63;  // keys that nobody counts up to
-    const std::uint64_t key = std::hash<std::string>()(fmt::format("{} {}", name, size)) | of_host;
+    const std::uint64_t key = std::hash<std::string>()(fmt::format("{} {} {}", name, size, as == Remembered::work)) | of_host;
     const Buffer buffer = import(std::move(name), size, {key});
-    buffers_.back().remembered = true;
+    buffers_.back().remembered = as;
     return buffer;
 }
 

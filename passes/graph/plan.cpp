@@ -133,33 +133,66 @@ AccessSet accesses(const PlannedStep& planned, Image image, Part part) {
     return set;
 }
 
-void cull(const Graph& graph, Plan& plan) {
+namespace {
+
+using Ids = std::set<std::uint32_t>;
+
+/// Of the planned steps, which feed what the frame is for; `work`: buffers of remembered work that count as such.
+std::vector<bool> steps_that_feed(const Graph& graph, const Plan& plan, const Ids& work) {
     Needed needed;
     for (const Image image : graph.kept_images()) needed.images.insert(image.id);
     for (const Buffer buffer : graph.kept_buffers())
         if (!graph.record(buffer).weak) needed.buffers.insert(buffer.id);
     for (const ImageRecord& record : graph.images())
         if (record.import) needed.images.insert(static_cast<std::uint32_t>(&record - graph.images().data()));
-    for (const BufferRecord& record : graph.buffers())
-        if (record.import) needed.buffers.insert(static_cast<std::uint32_t>(&record - graph.buffers().data()));
-
-    std::vector<PlannedStep> alive;
+    for (const BufferRecord& record : graph.buffers()) {
+        const auto id = static_cast<std::uint32_t>(&record - graph.buffers().data());
+        if (record.import && (record.remembered != Remembered::work || work.contains(id))) needed.buffers.insert(id);
+    }
+    std::vector<bool> feed(plan.steps.size());
     for (std::size_t i = plan.steps.size(); i-- > 0;) {
-        PlannedStep& planned = plan.steps[i];
+        const PlannedStep& planned = plan.steps[i];
         const std::vector<Use> all = uses(planned);
-        if (!feeds_something(graph, planned, all, needed)) {
-            plan.culled.push_back({graph.scopes()[planned.step.scope], planned.step.name, why_culled(graph, planned, all)});
-            if (counts(graph, planned, all)) plan.uncounted_scopes.insert(planned.step.scope);
-            continue;
-        }
+        feed[i] = feeds_something(graph, planned, all, needed);
+        if (!feed[i]) continue;
         for (const Use& use : all)
             if (replaces_all(planned.step, use)) needed.remove(use);
         for (const Use& use : all)
             if (reads(use.access)) needed.add(use);
-        alive.push_back(std::move(planned));
     }
-    std::ranges::reverse(alive);
-    std::ranges::reverse(plan.culled);
+    return feed;
+}
+
+/// Buffers of remembered work that these steps use.
+Ids work_of(const Graph& graph, const Plan& plan, const std::vector<bool>& feed) {
+    Ids work;
+    for (std::size_t i = 0; i < plan.steps.size(); ++i)
+        if (feed[i])
+            for (const Use& use : uses(plan.steps[i]))
+                if (use.buffer && graph.record(use.buffer).remembered == Remembered::work) work.insert(use.buffer.id);
+    return work;
+}
+
+}  // namespace
+
+void cull(const Graph& graph, Plan& plan) {
+    // Work that the next frame need not do is done where this frame needs it.
+    std::vector<bool> feed = steps_that_feed(graph, plan, {});
+    for (Ids work, more = work_of(graph, plan, feed); more != work; more = work_of(graph, plan, feed)) {
+        work = more;
+        feed = steps_that_feed(graph, plan, work);
+    }
+    std::vector<PlannedStep> alive;
+    for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+        PlannedStep& planned = plan.steps[i];
+        if (feed[i]) {
+            alive.push_back(std::move(planned));
+            continue;
+        }
+        const std::vector<Use> all = uses(planned);
+        plan.culled.push_back({graph.scopes()[planned.step.scope], planned.step.name, why_culled(graph, planned, all)});
+        if (counts(graph, planned, all)) plan.uncounted_scopes.insert(planned.step.scope);
+    }
     plan.culled.insert(plan.culled.begin(), graph.left_out().begin(), graph.left_out().end());
     plan.steps = std::move(alive);
 }

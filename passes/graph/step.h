@@ -90,13 +90,19 @@ struct ImageRecord {
     std::optional<ImportId> import = {};
 };
 
+/// What a frame does with what the one before it left.
+enum class Remembered {
+    history,  ///< shows it: what the frame gives depends on it
+    work,     ///< does it once: the frame costs less, and gives the same
+};
+
 struct BufferRecord {
     std::string name;
     std::uint64_t bytes = 0;
     std::uint32_t version = 0;
     std::optional<ImportId> import = {};
     bool weak = false;        ///< writing it keeps no step alive (counters)
-    bool remembered = false;  ///< outlives the frame: see Graph::remember
+    std::optional<Remembered> remembered = {};  ///< outlives the frame: see Graph::remember
 };
 
 using SpecValue = std::variant<std::uint32_t, std::int32_t, float>;
@@ -170,6 +176,7 @@ struct Step {
     bool drops_other_colors = false;           ///< the shader may write more colors than there are attachments
     std::vector<std::byte> push = {};
     std::vector<Fixed> fixed = {};
+    std::string offers_first = {};  ///< what is offered under this and a block's name comes before what its name alone offers
 };
 
 /// What the steps of a scope are for.

@@ -27,6 +27,7 @@ struct Grid {
     double fade_cells = 1;                              ///< width of the border over which the next grid takes over
     std::uint32_t iterations = 0;                       ///< as recorded
     VolumeOcclusion occlusion = VolumeOcclusion::none;  ///< as recorded
+    bool follows_eye = false;
 };
 
 /// One color channel of a grid, by cell_index().

@@ -32,9 +32,9 @@ std::array<glm::dvec3, 8> view_corners_of(const View& view, const BoundingBox& w
     return corners;
 }
 
-BoundingSphere sphere_around(const Frame& frame, const Draw& draw, const BoundingBox& box) {
+BoundingSphere sphere_around(const View& view, const Draw& draw, const BoundingBox& box) {
     const auto placed = [&](const glm::dvec3& p) {
-        return in_view_space(frame.view, glm::dvec3(draw.to_world * glm::dvec4(p, 1)));
+        return in_view_space(view, glm::dvec3(draw.to_world * glm::dvec4(p, 1)));
     };
     BoundingSphere sphere{placed(0.5 * (box.low + box.high)), 0};
     for (const glm::dvec3& corner : corners_of(box))
@@ -45,7 +45,7 @@ BoundingSphere sphere_around(const Frame& frame, const Draw& draw, const Boundin
 DrawBounds draw_bounds(const Frame& frame) {
     DrawBounds bounds;
     for (const Mesh& mesh : frame.meshes) bounds.boxes.push_back(box_around(mesh.positions));
-    for (const Draw& draw : frame.draws) bounds.spheres.push_back(sphere_around(frame, draw, bounds.boxes[draw.mesh]));
+    for (const Draw& draw : frame.draws) bounds.spheres.push_back(sphere_around(frame.view, draw, bounds.boxes[draw.mesh]));
     return bounds;
 }
 

@@ -27,8 +27,8 @@ struct BoundingSphere {
     glm::dvec3 center{0};
     double radius = 0;
 };
-/// Around the corners of the draw's box: its center and longest half diagonal. DrawRecord has it in float.
-BoundingSphere sphere_around(const Frame&, const Draw&, const BoundingBox& of_mesh);
+/// Around the corners of the draw's box as the view has it: its center and longest half diagonal. DrawRecord has it in float.
+BoundingSphere sphere_around(const View&, const Draw&, const BoundingBox& of_mesh);
 
 struct DrawBounds {
     std::vector<BoundingBox> boxes;       ///< of Frame::meshes

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capture_format/frame/frame.h"
 #include "capture_format/frame/light.h"
 #include "capture_format/light_types.h"
+#include "capture_format/view.h"
 
 namespace strata {
 namespace {
 
-LightPyramid spot_pyramid(const Frame& frame, const Light& light) {
-    const glm::dvec3 along = frame.view.to_view * glm::normalize(glm::dvec3(light.direction));
-    glm::dvec3 u = frame.view.to_view * glm::dvec3(light.axis_u);
+LightPyramid spot_pyramid(const View& view, const Light& light) {
+    const glm::dvec3 along = view.to_view * glm::normalize(glm::dvec3(light.direction));
+    glm::dvec3 u = view.to_view * glm::dvec3(light.axis_u);
     // Of a round spot without a picture a capture may say any axis.
-    if (glm::length(glm::cross(u, along)) < 1e-3) u = frame.view.to_view * parallel_axes(glm::dvec3(light.direction)).u;
+    if (glm::length(glm::cross(u, along)) < 1e-3) u = view.to_view * parallel_axes(glm::dvec3(light.direction)).u;
     const auto slope = [](float half_angle) { return std::tan(std::min(double(half_angle), widest_half_angle)); };
     const double slope_u = slope(light.outer_angle);
     return {.along = along,
@@ -22,20 +22,20 @@ LightPyramid spot_pyramid(const Frame& frame, const Light& light) {
             .slopes = {slope_u, facts_of(light.type).cone == LightCone::square ? slope(light.inner_angle) : slope_u}};
 }
 
-LightPyramid face_pyramid(const Frame& frame, int face) {
+LightPyramid face_pyramid(const View& view, int face) {
     const int axis = face / 2;
     glm::dvec3 along(0), u(0);
     along[axis] = face % 2 == 0 ? 1 : -1;
     u[(axis + 1) % 3] = 1;
-    return {.along = frame.view.to_view * along, .u = frame.view.to_view * u, .slopes = {1, 1}};
+    return {.along = view.to_view * along, .u = view.to_view * u, .slopes = {1, 1}};
 }
 
 }  // namespace
 
-std::vector<LightPyramid> light_pyramids(const Frame& frame, const Light& light) {
-    if (is_spot(light.type)) return {spot_pyramid(frame, light)};
+std::vector<LightPyramid> light_pyramids(const View& view, const Light& light) {
+    if (is_spot(light.type)) return {spot_pyramid(view, light)};
     std::vector<LightPyramid> faces;
-    for (int face = 0; face < 6; ++face) faces.push_back(face_pyramid(frame, face));
+    for (int face = 0; face < 6; ++face) faces.push_back(face_pyramid(view, face));
     return faces;
 }
 

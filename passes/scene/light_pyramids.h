@@ -8,8 +8,8 @@
 
 namespace strata {
 
-struct Frame;  // capture_format/frame.h
 struct Light;  // capture_format/frame/light.h
+struct View;   // capture_format/view.h
 
 /// Radians. Half angle from which a perspective map is useless: tan 85 degrees is 11.4.
 inline constexpr double widest_half_angle = 85 * std::numbers::pi / 180;
@@ -23,7 +23,7 @@ struct LightPyramid {
 
 /// One of a spot; of any other light that has a position six, the faces of a cube that stands along the world's axes: +x, -x, +y,
 /// -y, +z, -z.
-std::vector<LightPyramid> light_pyramids(const Frame&, const Light&);
+std::vector<LightPyramid> light_pyramids(const View&, const Light&);
 
 /// Of parallel light, in the world: fixed by its direction alone, so that texels stay where they are when the camera moves.
 struct ParallelAxes {

@@ -22,7 +22,7 @@ layout(location = 6) flat in uint in_draw;
 layout(location = 7) flat in uint in_triangle;   // its number in the draw, where FrameImages::numbered is drawn; else 0
 
 layout(constant_id = 1) const uint soft_fade = 0u;      // 1: the frame has soft particles and depth_layers is bound
-layout(constant_id = 2) const float sample_near = 0.0;  // the near plane with several samples, 0 with one
+layout(constant_id = 2) const float sample_near = 0.0;  // the near plane; 0: varyings are the sample's
 layout(constant_id = 4) const uint distorts = 0u;        // 1: the frame has materials that distort
 layout(constant_id = 8) const uint has_interfaces = 0u;  // 1: the frame has interface layers
 layout(constant_id = 14) const uint has_fog = 1u;        // 0: the frame has none

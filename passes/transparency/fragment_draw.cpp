@@ -27,7 +27,7 @@ DrawStep& bind_volume_light(DrawStep& builder, const FrameImages& images) {
 DrawStep bound(DrawStep builder, const FrameImages& images, Image depth_layers) {
     builder.samples("depth_layers", depth_layers)
         .fixes("soft_fade", images.features->has(Feature::soft_particles) ? 1u : 0u)
-        .fixes("sample_near", images.samples > 1 ? images.recorded->view.near : 0.f)
+        .fixes("sample_near", sample_near(images))
         .fixes("distorts", images.features->has(Feature::distortion) ? 1u : 0u)
         .fixes("has_interfaces", images.features->has(Feature::interface_layers) ? 1u : 0u)
         .fixes("has_fog", images.features->has(Feature::fog) ? 1u : 0u)

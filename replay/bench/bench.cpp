@@ -35,13 +35,14 @@ Result<std::pair<Variant, Variant>> variants_of(Session& session, const Claim& c
             Fault::usage, "bench.needs_scenario",
             "this ratio changes frames of scenario {scenario} and cannot be measured on a capture: run strata bench without one",
             claim.ratio->scenario);
-    const auto of = variant_of(*claim.technique, claim.ratio->of, claim.base);
+    auto of = variant_of(*claim.technique, claim.ratio->of, claim.base);
     if (!of) return of.error();
+    of->request.unchanged = claim.ratio->of_unchanged;
     Request base = claim.base;
     base.variant.frame = claim.against_frame.value_or(base.variant.frame);
     const auto against = variant_of(*claim.technique, claim.ratio->against, base);
     if (!against) return against.error();
-    for (const Variant* variant : {&*of, &*against})
+    for (const Variant* const variant : std::array<const Variant*, 2>{&*of, &*against})
         if (const auto fits = check(session, *variant); !fits) return fits.error();
     return std::pair{*of, *against};
 }
@@ -92,7 +93,8 @@ Result<MeasuredRatio> measure(Session& session, const Claim& claim, std::size_t 
     if (!variants) return variants.error();
     const auto& [of, against] = *variants;
     const std::string pair =
-        fmt::format("{} in frame {} against {} in frame {}", label(of.technique->name, of.settings), of.request.variant.frame,
+        fmt::format("{}{} in frame {} against {} in frame {}", label(of.technique->name, of.settings),
+                    of.request.unchanged ? " unchanged" : "", of.request.variant.frame,
                     label(against.technique->name, against.settings), against.request.variant.frame);
     if (!timed.contains(pair)) {
         auto runs = session.time(std::array{of.request, against.request}, repeats);

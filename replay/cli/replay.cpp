@@ -12,7 +12,9 @@
 #include "capture_format/container/whole_file.h"
 #include "capture_format/reader.h"
 #include "passes/frame_images.h"
+#include "passes/registry.h"
 #include "passes/stages.h"
+#include "passes/technique.h"
 #include "replay/cli/expected_results.h"
 #include "replay/cli/given_options.h"
 #include "replay/cli/left_out.h"
@@ -109,6 +111,26 @@ void print_times(const Run& run) {
     for (const StepRecord& step : run.steps)
         to_stdout("  {:>9.3f} ms +- {:<7.3f} {:<36} {}\n", step.ms->median, step.ms->mad, text_of(step.scope), step.name);
     to_stdout("  {:>9.3f} ms +- {:<7.3f} frame\n", run.frame_ms->median, run.frame_ms->mad);
+    const auto print_unchanged = [](const Spread& ms, std::string_view of) {
+        to_stdout("  {:>9.3f} ms +- {:<7.3f} {}, unchanged since the frame before\n", ms.median, ms.mad, of);
+    };
+    for (const auto& [stage, ms] : run.unchanged_stage_ms) print_unchanged(ms, stage);
+    if (run.unchanged_frame_ms) print_unchanged(*run.unchanged_frame_ms, "frame");
+}
+
+/// Times once more what techniques that keep work take in a frame that follows itself.
+Result<void> time_unchanged(Session& session, Request request, std::size_t repeats, Run& run) {
+    std::vector<std::string> keeping;
+    for (const auto& [stage, ms] : run.stage_ms)
+        for (const Technique& technique : techniques())
+            if (technique.abilities.keeps_work && run.choices.at(stage).starts_with(technique.name)) keeping.push_back(stage);
+    if (keeping.empty()) return {};
+    request.unchanged = true;
+    const auto runs = session.time(std::span(&request, 1), repeats);
+    if (!runs) return runs.error();
+    for (const std::string& stage : keeping) run.unchanged_stage_ms.emplace(stage, runs->front().stage_ms.at(stage));
+    run.unchanged_frame_ms = runs->front().frame_ms;
+    return {};
 }
 
 /// One run; or with --time as many as asked for after a warm-up, everything executed every time.
@@ -117,6 +139,7 @@ Result<Run> run_once(Session& session, const Request& request, const ReplayArgum
     auto runs = session.time(std::span(&request, 1), options.timed);
     if (!runs) return runs.error();
     Run run = std::move(runs->front());
+    if (const auto done = time_unchanged(session, request, options.timed, run); !done) return done.error();
     auto looked_at = session.run(request);
     if (!looked_at) return looked_at.error();
     run.passes = std::move(looked_at->passes);
@@ -363,7 +386,8 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
         ->check(from_to(2, 100000))
         ->excludes(until);
     CLI::Option* time = app.add_option("--time", options->timed,
-                                       "time every step over this many repeats after a warm-up; print median and deviation")
+                                       "time every step over this many repeats after a warm-up, as if no frame came before; print median and "
+                                       "deviation, and what stages that keep work take where nothing changed")
                             ->check(from_to(1, 10000));
     app.add_option(
            "-o,--output", options->folder,

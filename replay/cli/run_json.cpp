@@ -156,6 +156,8 @@ ordered_json json_of(const DocumentHead& head, const Metadata& provenance, const
     if (verdict) json["expectation"] = json_of(*verdict);
     if (run.frame_ms) json["frame_ms"] = json_of(*run.frame_ms);
     for (const auto& [stage, ms] : run.stage_ms) json["stage_ms"][stage] = json_of(ms);
+    if (run.unchanged_frame_ms) json["unchanged_frame_ms"] = json_of(*run.unchanged_frame_ms);
+    for (const auto& [stage, ms] : run.unchanged_stage_ms) json["unchanged_stage_ms"][stage] = json_of(ms);
     for (const auto& [stage, ran] : run.stage_invocations) json["stage_invocations"][stage] = ran;
     for (const SkippedStage& skipped : run.skipped)
         json["left_out"].push_back({{"stage", name(skipped.stage)}, {"reason", skipped.reason}});

@@ -156,6 +156,8 @@ Capabilities capabilities_of(const vk::raii::PhysicalDevice& device) {
         if (row.feature.of(features) && row.other.of(features)) found.push_back(row.capability);
     if (has_interlock(device)) found.push_back(Capability::fragment_interlock);
     if (!ends_long_loops(device)) found.push_back(Capability::long_loops);
+    // lavapipe 22.3 and 25.0 lack it. Of devices that are no GPU none is asked for more than bits that stay as they are.
+    if (device.getProperties().deviceType != vk::PhysicalDeviceType::eCpu) found.push_back(Capability::sample_varyings);
     return found;
 }
 
@@ -169,6 +171,11 @@ std::optional<std::uint32_t> queue_family(const vk::raii::PhysicalDevice& device
     });
     if (found == families.end()) return std::nullopt;
     return static_cast<std::uint32_t>(found - families.begin());
+}
+
+std::uint64_t timestamp_mask(const vk::raii::PhysicalDevice& device) {
+    const std::uint32_t bits = device.getQueueFamilyProperties()[*queue_family(device)].timestampValidBits;
+    return bits < 64 ? (std::uint64_t{1} << bits) - 1 : ~std::uint64_t{0};
 }
 
 bool describes_pipelines(const vk::raii::PhysicalDevice& device) {

@@ -24,6 +24,8 @@ public:
     MemoryPool& memory() { return memory_; }
     PipelineStore& pipelines() { return pipelines_; }
     double timestamp_period_ns() const { return timestamp_period_ns_; }
+    /// Bits of a timestamp that count, from the lowest on; the others are anything.
+    std::uint64_t timestamp_mask() const { return timestamp_mask_; }
     bool counts_invocations() const { return counts_invocations_; }
 
     /// Gives the object a name in validation messages and debuggers.
@@ -45,6 +47,7 @@ private:
     DeviceInfo info_;
     vk::raii::PhysicalDevice physical_;
     double timestamp_period_ns_;
+    std::uint64_t timestamp_mask_;
     bool counts_invocations_;
     vk::raii::Device device_;
     vk::raii::Queue queue_;

@@ -23,6 +23,7 @@ std::vector<std::uint64_t> results(const vk::raii::QueryPool& pool, std::uint32_
 
 Stopwatch::Stopwatch(const OpenedDevice& device, std::uint32_t intervals)
     : period_ns_(device.timestamp_period_ns()),
+      mask_(device.timestamp_mask()),
       times_(device.handle(), vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2 * intervals)) {
     times_.reset(0, 2 * intervals);
     if (!device.counts_invocations()) return;
@@ -52,7 +53,7 @@ std::vector<StepCost> Stopwatch::costs() const {
     if (begun_ == 0) return intervals;
     const std::vector<std::uint64_t> ticks = results(times_, written_, 1);
     for (std::size_t i = 0; i < begun_; ++i)
-        intervals[i].ms = static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]) * period_ns_ * 1e-6;
+        intervals[i].ms = static_cast<double>((ticks[2 * i + 1] - ticks[2 * i]) & mask_) * period_ns_ * 1e-6;
     if (!invocations_) return intervals;
     const std::vector<std::uint64_t> numbers = results(*invocations_, begun_, counts);
     for (std::size_t i = 0; i < begun_; ++i) intervals[i].invocations = numbers[counts * i] + numbers[counts * i + 1];

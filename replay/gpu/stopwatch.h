@@ -27,6 +27,7 @@ private:
     void write_time(const vk::raii::CommandBuffer&);
 
     double period_ns_;
+    std::uint64_t mask_;
     std::uint32_t begun_ = 0, written_ = 0;
     vk::raii::QueryPool times_;
     std::optional<vk::raii::QueryPool> invocations_;  ///< where the device counts them

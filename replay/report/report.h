@@ -101,6 +101,7 @@ struct Measurement {
     std::vector<double> repeats_ms;           ///< the stage's times, in the order of the repeats
     std::vector<double> baseline_repeats_ms;  ///< the time unit's in the same repeats; empty where there is no `time`
     std::optional<Spread> sort_ms;            ///< of stage_ms: what the host sorts in every frame
+    std::optional<Spread> unchanged_ms;       ///< of the stage in a frame that follows itself (Abilities::keeps_work)
     std::uint64_t stage_bytes = 0;
     double bytes_per_pixel = 0;
     std::optional<std::uint64_t> invocations;  ///< of fragment and compute shaders, where the device counts them

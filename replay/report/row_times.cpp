@@ -27,6 +27,13 @@ Result<void> RowTimes::time(std::vector<std::size_t> rows, std::size_t repeats, 
     if (unit_ && std::ranges::count(rows, *unit_) == 0) rows.insert(rows.begin(), *unit_);
     std::vector<Request> requests;
     for (const std::size_t row : rows) requests.push_back(all_[row].variant->request);
+    std::vector<std::size_t> keeping;  // rows that are timed in unchanged frames, too, after all others and the first time alone
+    for (const std::size_t row : rows) {
+        if (!all_[row].variant->technique->abilities.keeps_work || !all_[row].unchanged_ms.empty()) continue;
+        keeping.push_back(row);
+        requests.push_back(all_[row].variant->request);
+        requests.back().unchanged = true;
+    }
     const auto runs = session_->time(requests, repeats, progress);
     if (!runs) return runs.error();
     const std::string stage(name(stage_));
@@ -36,6 +43,8 @@ Result<void> RowTimes::time(std::vector<std::size_t> rows, std::size_t repeats, 
         unit_ms = (*runs)[place].stage_ms_by_repeat.at(stage);
         if (this->repeats(*unit_) == 0) has_unit_ = std::ranges::min(unit_ms) > 0;
     }
+    for (std::size_t i = 0; i < keeping.size(); ++i)
+        append(all_[keeping[i]].unchanged_ms, (*runs)[rows.size() + i].stage_ms_by_repeat.at(stage));
     for (std::size_t i = 0; i < rows.size(); ++i) {
         Row& row = all_[rows[i]];
         const Run& run = (*runs)[i];
@@ -59,6 +68,7 @@ void RowTimes::add_to(Measurement& measured, std::size_t index, const Report& re
     measured.stage_ms = spread_of(row.stage_ms);
     measured.frame_ms = spread_of(row.frame_ms);
     if (!row.sort_ms.empty()) measured.sort_ms = spread_of(row.sort_ms);
+    if (!row.unchanged_ms.empty()) measured.unchanged_ms = spread_of(row.unchanged_ms);
     measured.repeats_ms = row.stage_ms;
     measured.steps.clear();
     if (!row.sort_ms.empty()) measured.steps.push_back({"sort on the CPU", spread_of(row.sort_ms)});

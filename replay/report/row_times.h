@@ -35,7 +35,7 @@ private:
         std::uint64_t bytes = 0;                   ///< of the stage
         std::optional<std::uint64_t> invocations;  ///< and how often its shaders ran
         std::vector<CounterRecord> counters;
-        std::vector<double> stage_ms, frame_ms, sort_ms;
+        std::vector<double> stage_ms, frame_ms, sort_ms, unchanged_ms;
         std::vector<std::pair<std::string, std::vector<double>>> steps_ms;  ///< by name
         std::vector<double> unit_ms;                                        ///< the unit's stage_ms in the same turns
     };

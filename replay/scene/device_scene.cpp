@@ -21,6 +21,11 @@ struct BufferRow {
 };
 
 template <auto Member>
+std::span<const std::byte> still_bytes_of(const SceneRecords& scene) {
+    return std::as_bytes(std::span(scene.still.*Member));
+}
+
+template <auto Member>
 std::span<const std::byte> bytes_of(const SceneRecords& scene) {
     return std::as_bytes(std::span(scene.*Member));
 }
@@ -58,6 +63,14 @@ constexpr BufferRow rows[] = {
     {"ParticleDepths", bytes_of<&SceneRecords::particle_depths>},
     {"ParticleUvs", bytes_of<&SceneRecords::particle_uvs>},
     {"ParticleGlows", bytes_of<&SceneRecords::particle_glows>},
+    {"Still View", still_bytes_of<&StillRecords::views>},
+    {"Still Draws", still_bytes_of<&StillRecords::draws>},
+    {"Still Lights", still_bytes_of<&StillRecords::lights>},
+    {"Still Blockers", still_bytes_of<&StillRecords::blockers>},
+    {"Still LightBlockers", still_bytes_of<&StillRecords::light_blockers>},
+    {"Still BlockerPortals", still_bytes_of<&StillRecords::blocker_portals>},
+    {"Still Portals", still_bytes_of<&StillRecords::portals>},
+    {"Still ClipPlanes", still_bytes_of<&StillRecords::clip_planes>},
 };
 
 consteval std::size_t row_of(std::string_view name) {

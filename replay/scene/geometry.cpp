@@ -19,6 +19,7 @@
 #include "capture_format/frame/particles.h"
 #include "passes/scene/object_order.h"
 #include "passes/scene/scene_facts.h"
+#include "passes/scene/still_view.h"
 #include "passes/scene/view_space.h"
 #include "replay/scene/numbering.h"
 #include "replay/scene/scene_records.h"
@@ -104,13 +105,18 @@ glm::dmat4 motion_in_view(const Draw& draw, const glm::dmat4& view) {
     return moved;  // as its origin has
 }
 
-DrawRecord draw_record(const Frame& frame, const Draw& draw, const BoundingSphere& bound, const MeshRange& mesh) {
-    const glm::dmat4 view = glm::translate(glm::dmat4(frame.view.to_view), -frame.view.origin);
-    const glm::dmat4 to_view = view * draw.to_world;
+glm::dmat4 to_view_space(const View& view) { return glm::translate(glm::dmat4(view.to_view), -view.origin); }
+
+glm::dmat3 of_normals(const glm::dmat4& to_view) {
     const glm::dmat3 linear(to_view);
+    return is_flat(to_view) ? linear : glm::transpose(glm::inverse(linear));
+}
+
+DrawRecord draw_record(const Frame& frame, const Draw& draw, const BoundingSphere& bound, const MeshRange& mesh) {
+    const glm::dmat4 view = to_view_space(frame.view), to_view = view * draw.to_world;
     return {
         .to_view = glm::mat4(to_view),
-        .normal_to_view = glm::mat3(is_flat(to_view) ? linear : glm::transpose(glm::inverse(linear))),
+        .normal_to_view = glm::mat3(of_normals(to_view)),
         .material = draw.material,
         .soft_fade = 0,
         .layer = draw.layer,
@@ -220,6 +226,28 @@ void add_geometry(const SceneFacts& facts, SceneRecords& scene) {
     scene.numbered = add_commands(facts.lists().transparent, numbered(submitted, facts.lists().transparent, scene), scene);
     scene.separate = add_commands(facts.lists().transparent, not_indexed(submitted), scene);
     scene.back_to_front = add_commands(back_to_front_draws(frame), sorted, scene);
+}
+
+void add_still(const SceneFacts& facts, SceneRecords& scene) {
+    const Frame& frame = facts.frame();
+    if (frame.light_volumes.empty()) return;
+    Frame around;  // what records of lights are made of
+    around.view = still_view(frame);
+    around.blockers = frame.blockers;
+    around.portals = frame.portals;
+    static_cast<LightRecords&>(scene.still) = light_records(around, facts.lights());
+    scene.still.views.push_back(scene.view);
+    scene.still.views.back().to_world = glm::mat3(glm::transpose(around.view.to_view));
+    const glm::dmat4 view = to_view_space(around.view);
+    for (std::size_t i = 0; i < frame.draws.size(); ++i) {
+        const glm::dmat4 to_view = view * frame.draws[i].to_world;
+        DrawRecord& draw = scene.still.draws.emplace_back(scene.draws[i]);
+        draw.to_view = glm::mat4(to_view);
+        draw.normal_to_view = glm::mat3(of_normals(to_view));
+        const BoundingSphere bound = sphere_around(around.view, frame.draws[i], facts.bounds().boxes[frame.draws[i].mesh]);
+        draw.bound_center = glm::vec3(bound.center);
+        draw.bound_radius = float(bound.radius);
+    }
 }
 
 }  // namespace strata

@@ -88,6 +88,7 @@ SceneRecords scene_records(const SceneFacts& facts) {
     add_materials(frame, scene);
     add_textures(frame, scene);
     add_lights(facts, scene);
+    add_still(facts, scene);
     return scene;
 }
 

@@ -148,6 +148,8 @@ private:
     void upload_scene();
     /// Zeros for what frames leave to the next and none left yet.
     void make_remembered(const Plan&);
+    /// The next run does all of its work.
+    void forget_work();
     /// The one place where a device's collapse becomes an Error.
     template <typename Action>
     std::invoke_result_t<Action> failures_as_errors(Action);
@@ -170,7 +172,7 @@ private:
     std::unique_ptr<LoadedFrame> loaded_;
     std::optional<SceneRecords> not_uploaded_;  ///< the loaded frame's scene, until a plan is known to fit beside it
     std::uint64_t memory_budget_ = 0;
-    std::set<std::uint64_t> remembered_;  ///< keys of buffers that are there
+    std::map<std::uint64_t, Remembered> remembered_;  ///< buffers that are there, by their keys
     RunTimes times_;                      ///< of the latest request
     std::optional<Found> found_;
     /// Of the latest row_fragments(), or of transparent_fragments() where the frame's unit of light is not the recorded one.

@@ -111,7 +111,7 @@ std::uint64_t PassKeys::key(const Graph& graph, const DeclaredPass& pass, const 
         if (const auto* draw = std::get_if<DrawWork>(&step.work)) hash.add(shaders_->replaced(scene_vertex_shader(draw->list)));
         for (const Use& use : uses(step)) {
             use.image ? read(image_key_, use.image.id) : read(buffer_key_, use.buffer.id);
-            if (!use.image && graph.record(use.buffer).remembered) hash.add(run_);
+            if (!use.image && graph.record(use.buffer).remembered == Remembered::history) hash.add(run_);
             if (writes(use.access)) use.image ? images.insert(use.image.id) : buffers.insert(use.buffer.id);
         }
     }

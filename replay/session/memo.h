@@ -65,8 +65,7 @@ private:
 /// buffers it reads.
 class PassKeys {
 public:
-    /// run: no two runs have the same. What frames leave to the next is part of no key, so passes that look at it have none
-    /// twice.
+    /// run: no two runs have the same. What frames leave to the next is part of no key, so passes that show it have none twice.
     PassKeys(std::uint64_t frame_key, std::uint64_t run, const ShaderLibrary& shaders)
         : frame_key_(frame_key), run_(run), shaders_(&shaders) {}
     /// The key of the pass just declared as `scope`; remembers it as the producer of what the scope writes.

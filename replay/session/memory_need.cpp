@@ -51,6 +51,8 @@ MemoryNeed memory_need(const Executor& executor, const Plan& plan, const RunOpti
     }
     count_images(executor, plan, need);
     for (const std::uint32_t id : plan.used_buffers) need.buffers += executor.buffer_bytes(plan.buffers[id].bytes);
+    for (const BufferRecord& buffer : plan.buffers)
+        if (buffer.remembered) need.buffers += executor.buffer_bytes(buffer.bytes);
     if (options.kept_images == KeptImages::read)
         for (const Image image : plan.kept_images)
             if (!plan.images[image.id].import) need.read_back += read_back_bytes(executor, plan.images[image.id].shape);
@@ -76,7 +78,9 @@ std::vector<Life> lives_of(const Plan& plan) {
         for (const Use& use : uses(plan.steps[i])) {
             const bool is_image = bool(use.image);
             const std::uint32_t id = is_image ? use.image.id : use.buffer.id;
-            if (is_image ? plan.images[id].import.has_value() : plan.buffers[id].import.has_value()) continue;
+            const bool is_given = is_image ? plan.images[id].import.has_value()
+                                           : plan.buffers[id].import.has_value() && !plan.buffers[id].remembered;
+            if (is_given) continue;
             const std::uint64_t size = is_image ? bytes(plan.images[id].shape) : plan.buffers[id].bytes;
             lives.try_emplace({is_image, id}, Life{is_image, id, size, i, i}).first->second.last = i;
         }

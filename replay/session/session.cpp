@@ -222,8 +222,15 @@ void DeviceSession::make_remembered(const Plan& plan) {
     for (const BufferRecord& buffer : plan.buffers)
         if (buffer.remembered && !remembered_.contains(buffer.import->key)) {
             executor_->upload(*buffer.import, std::vector<std::byte>(buffer.bytes));
-            remembered_.insert(buffer.import->key);
+            remembered_.emplace(buffer.import->key, *buffer.remembered);
         }
+}
+
+void DeviceSession::forget_work() {
+    std::erase_if(remembered_, [&](const auto& held) {
+        if (held.second == Remembered::work) executor_->forget({held.first});
+        return held.second == Remembered::work;
+    });
 }
 
 void DeviceSession::limit_memo(std::uint64_t bytes) { memo_.limit(std::min(bytes, memo_budget_bytes)); }
@@ -258,7 +265,7 @@ Result<Execution> DeviceSession::execute(const Declaration& d, RunOptions option
     if (execution) return execution;
     memo_.drop_unfilled();
     if (stop_.stop_requested()) return check_going().error();
-    if (execution.error().fault == Fault::device_failed) remembered_.clear();  // the frame may have got halfway
+    remembered_.clear();  // the frame may have got halfway, or have left what is wrong
     return execution;
 }
 

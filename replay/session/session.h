@@ -51,6 +51,8 @@ struct Request {
     Passes passes = Passes::not_read;  ///< not with `until`
     LightCheck light = LightCheck::off;
     bool once = false;  ///< nothing is kept for later runs that share stages with this one
+    /// Timed as a frame that follows itself: what need not be done again is not. Else as if nothing came before it.
+    bool unchanged = false;
     friend bool operator==(const Request&, const Request&) = default;
 };
 
@@ -116,6 +118,9 @@ struct Run {
     // What they are the spreads of, in turn.
     std::vector<double> frame_ms_by_repeat;
     std::map<std::string, std::vector<double>> stage_ms_by_repeat, stage_sort_ms_by_repeat;
+    /// Of a frame that follows itself, where a technique keeps work (Request::unchanged): of the frame, and by stage.
+    std::optional<Spread> unchanged_frame_ms;
+    std::map<std::string, Spread> unchanged_stage_ms;
     std::map<std::string, std::uint64_t> stage_invocations;  ///< with timing: how often its fragment and compute shaders ran
     std::uint32_t width = 0, height = 0, samples = 1;
     std::uint64_t image_bytes = 0, buffer_bytes = 0;

@@ -87,6 +87,8 @@ void add_results(Run& whole, Run executed) {
 Result<DeviceSession::TimedRun> DeviceSession::time_alone(const Request& request) {
     const auto declared = prepare(request, nullptr, Keep::outputs);
     if (!declared) return declared.error();
+    if (!request.unchanged) forget_work();
+    else if (const auto before = execute(*declared, {}); !before) return before.error();
     auto execution = execute(*declared, {.timestamps = Timestamps::on});
     if (!execution) return execution.error();
     TimedRun timed{finished(*declared, *execution), std::move(execution->step_costs)};
@@ -126,7 +128,8 @@ Result<DeviceSession::RepeatTimes> DeviceSession::time_one_repeat(std::span<cons
             runs.push_back(*std::move(planned));
         }
         std::optional<std::vector<StepCost>> costs;
-        if (requests.size() > 1) {
+        if (requests.size() > 1 && !requests[i].unchanged) {
+            forget_work();
             const auto declared = prepare_with_memo(requests[i], {.timestamps = Timestamps::on});
             if (!declared) return declared.error();
             const auto execution = execute(*declared, {.timestamps = Timestamps::on});

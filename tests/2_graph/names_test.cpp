@@ -177,6 +177,23 @@ TEST(Names, AnOfferedBufferIsBoundWhereTheStepBindsNone) {
     EXPECT_EQ(plan.steps[0].bindings[0].binding.access, Access::loaded);
 }
 
+TEST(Names, WhatIsOfferedUnderAPrefixComesFirstForStepsThatNameIt) {
+    TwoImages f;
+    const Buffer list = f.graph.import("scene list", 64, ImportId{1}), own = f.graph.import("own list", 64, ImportId{2});
+    f.graph.offer("Own List", own);
+    f.graph.offer("List", list);
+    const auto taken = [&](const std::string& prefix) {
+        Graph graph = f.graph;
+        Image target = f.b;
+        graph.compute("use_list.comp").takes_first(prefix).stores("target", target).over({64, 32});
+        graph.keep(target);
+        return compiled(graph).steps[0].bindings[0].binding.buffer;
+    };
+    EXPECT_EQ(taken("Own"), own);
+    EXPECT_EQ(taken(""), list);
+    EXPECT_EQ(taken("Another"), list);
+}
+
 TEST(Names, CountersAreOfferedInsideTheirScopeOnly) {
     TwoImages f;
     f.graph.clear(f.a, {});

@@ -144,13 +144,60 @@ TEST(KeptGrids, ScrollOneCascadeWithoutTheOther) {
     const Lit scrolled = kept(*session, 1);
     EXPECT_EQ(scrolled.cells, cells_of_a_cascade);
     EXPECT_EQ(scrolled.faces, 12u * 10 + 11 * 10 + 12 * 9) << "of a slab";
-    const HostImage anew = lit_anew(*session, 1);
-    double worst = 0;
-    for (std::uint32_t y = 0; y < anew.shape.extent.height; ++y)
-        for (std::uint32_t x = 0; x < anew.shape.extent.width; ++x)
-            worst = std::max(worst, double(std::abs(texel(scrolled.indirect, x, y).y - texel(anew, x, y).y)));
-    EXPECT_LT(worst, 1e-2 * brightest(anew)) << "the second one is rounded as the first eye had it";
+    EXPECT_TRUE(scrolled.indirect.texels == lit_anew(*session, 1).texels);
     EXPECT_EQ(kept(*session, 1).work(), no_work);
+}
+
+/// Three cascades, and a lamp that reaches the finest one where the eye is 1.5 m farther on: the coarsest one has not moved.
+TEST(KeptGrids, AreLitByMapsThatAreAsFineWhereverTheEyeIs) {
+    Frame here = still_rooms()[1];
+    here.light_volumes = {{.kind = VolumeKind::cascaded_global,
+                           .occlusion = VolumeOcclusion::axial,
+                           .half_extent = {1, 1.5, 1},
+                           .cells = {4, 6, 4},
+                           .cascades = 3}};
+    here.lights[0].position = {3.9, 1.75, 0};
+    here.lights[0].range = 2;
+    here.view.origin = {.25, 1.75, 0};
+    Frame there = here;
+    there.view.origin.x += 1.5;
+    const auto session = session_of({here, there});
+    kept(*session, 0);
+    const Lit moved = kept(*session, 1);
+    EXPECT_EQ(moved.cells, 2u * 4 * 6 * 4) << "of the finer ones";
+    EXPECT_GT(moved.injected, 0u);
+    EXPECT_TRUE(moved.indirect.texels == lit_anew(*session, 1).texels);
+}
+
+/// The left room and the right one in volumes 31 and 32, each with a lamp that reaches no other volume.
+Frame rooms_in_33_volumes(double right_lamp) {
+    Frame frame = still_rooms()[0];
+    frame.light_volumes.clear();
+    const LightVolume volume{.kind = VolumeKind::fixed_local, .half_extent = {2, 1.5, 2.5}, .cells = {8, 6, 10}};
+    for (std::size_t i = 0; i < 33; ++i) {
+        const double x = i < 31 ? 8. * double(i) : i == 31 ? -2.75 : 2.75;
+        frame.light_volumes.push_back(volume);
+        frame.light_volumes.back().center = {x, i < 31 ? -50 : 1.5, 0};
+    }
+    Light& left = frame.lights[0];
+    left.range = 2;
+    left.position = {-3, 1.5, 0};
+    Light right = left;
+    right.position = {right_lamp, 1.5, 0};
+    frame.lights.push_back(right);
+    return frame;
+}
+
+TEST(KeptGrids, BeyondThe32ndAreLitAgainAlone) {
+    Frame alone = rooms_in_33_volumes(3.2);
+    alone.lights.erase(alone.lights.begin());
+    const auto session = session_of({rooms_in_33_volumes(3), rooms_in_33_volumes(3.2), alone});
+    EXPECT_GT(kept(*session, 0).injected, 0u);
+    const Lit moved = kept(*session, 1);
+    EXPECT_EQ(moved.cells, 8u * 6 * 10);
+    EXPECT_EQ(moved.injected, lit(*session, 2, {"relight=always"}).injected);
+    EXPECT_TRUE(moved.indirect.texels == lit_anew(*session, 1).texels);
+    EXPECT_TRUE(kept(*session, 0).indirect.texels == lit_anew(*session, 0).texels);
 }
 
 /// A spot in the left room that shines on the floor.

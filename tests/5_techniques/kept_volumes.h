@@ -35,6 +35,7 @@ inline Request coarse_light_of(std::size_t frame, std::vector<std::string> sets)
     Request request{.variant = {.frame = frame}, .choices = chosen({"indirect/lpv"}, sets)};
     request.variant.force.assign(all_features().begin(), all_features().end());
     request.outputs = {"indirect"};
+    request.once = true;  // what comes from the memo has the counters of the run that made it
     return request;
 }
 
@@ -51,7 +52,7 @@ inline Lit kept(Session& session, std::size_t frame, std::vector<std::string> se
 }
 
 /// The picture of a frame whose volumes are lit anew.
-inline HostImage lit_anew(Session& session, std::size_t frame) { return lit(session, frame, {}).indirect; }
+inline HostImage lit_anew(Session& session, std::size_t frame) { return lit(session, frame, {"relight=always"}).indirect; }
 
 /// Two rooms with the door closed, half open, wide open, seen from one place.
 inline std::vector<Frame> still_rooms() {

@@ -50,5 +50,95 @@ TEST(Remembered, IsLookedAtInEveryRun) {
     EXPECT_FALSE(executes_transparency(with_slices("64", "0")));  // who does not is taken from the memo
 }
 
+/// Light volumes, which keep their light.
+Request lit_room() {
+    Request request{.choices = chosen({"indirect/lpv"}, {"map_size=16", "iterations=2"})};
+    request.outputs = {"indirect"};
+    return request;
+}
+
+std::uint64_t injected(const strata::Run& run) {
+    for (const CounterRecord& counter : run.counters)
+        if (counter.technique == "indirect/lpv" && counter.name == "injected") return counter.value;
+    ADD_FAILURE() << "not counted";
+    return 0;
+}
+
+TEST(RememberedWork, IsNotDoneAgainAndIsDoneAgainWhereItIsTimed) {
+    const auto session = scenario_session("two_rooms");
+    Request request = lit_room(), unchanged = lit_room();
+    request.once = unchanged.once = unchanged.unchanged = true;
+    const std::uint64_t all = injected(must(session->run(request)));
+    EXPECT_GT(all, 0u);
+    EXPECT_EQ(injected(must(session->run(request))), 0u);
+    const std::vector<Request> requests{request, unchanged, request};
+    const auto runs = must(session->time(requests, 2));
+    EXPECT_EQ(injected(runs[0]), all);
+    EXPECT_EQ(injected(runs[1]), 0u);
+    EXPECT_EQ(injected(runs[2]), all);
+    EXPECT_EQ(injected(must(session->time(std::span(requests).first(1), 1)).front()), all);
+}
+
+TEST(RememberedWork, IsDoneAgainWhereStepsAreLookedAt) {
+    const auto session = scenario_session("two_rooms");
+    Request request = lit_room();
+    request.once = true;
+    const auto hashes = [&] {
+        std::vector<std::string> all;
+        for (const StepImages& step : must(session->step_images(request, Stage::indirect)))
+            for (const auto& [name, image] : step.images) all.push_back(hash_of(image));
+        return all;
+    };
+    const auto before = hashes();
+    must(session->run(request));
+    EXPECT_EQ(hashes(), before);
+    const Session::PlannedFrame planned = must(session->plan(request));
+    for (std::size_t i = 0; i < planned.plan.steps.size(); ++i) {
+        if (!planned.plan.steps[i].step.name.ends_with("injection/map")) continue;
+        must(session->run(request));
+        const HostImage map = must(session->peek(request, i, "lit positions"));
+        EXPECT_NE(map.texels, std::vector<std::byte>(map.texels.size())) << "step " << i;
+        break;
+    }
+}
+
+TEST(RememberedWork, IsNotTakenForTheHistoryOfAnotherSetting) {
+    const auto session = scenario_session("two_rooms");
+    const auto with = [](const char* text) {
+        Request request = lit_room();
+        set(request, text);
+        request.once = true;
+        return request;
+    };
+    const Request halves = with("cell_storage=half");
+    const std::string wanted = hash_of(must(session->run(halves)).images.at("indirect"));
+    session->forget_memo();
+    must(session->run(with("slice=1")));
+    must(session->run(halves));
+    const auto timed = must(session->time(std::span(&halves, 1), 1));
+    EXPECT_GT(injected(timed.front()), 0u);
+    EXPECT_EQ(hash_of(must(session->run(halves)).images.at("indirect")), wanted);
+}
+
+TEST(RememberedWork, IsNotDoneWhereNothingReadsIt) {
+    const auto session = scenario_session("two_rooms");
+    Request request = lit_room();
+    request.once = true;
+    request.outputs = {"depth_layers"};
+    const auto run = must(session->run(request));
+    for (const StepRecord& step : run.steps) EXPECT_FALSE(step.name.starts_with("indirect/")) << step.name;
+    EXPECT_GT(injected(must(session->run(lit_room()))), 0u);
+}
+
+TEST(RememberedWork, IsNoReasonToExecuteAPassTwice) {
+    const auto session = scenario_session("two_rooms");
+    must(session->run(lit_room()));
+    EXPECT_EQ(must(session->run(lit_room())).passes_executed, 0u);
+    Request sliced = lit_room();
+    set(sliced, "slice=1");
+    must(session->run(sliced));
+    EXPECT_GT(must(session->run(sliced)).passes_executed, 0u) << "it shows what it remembers";
+}
+
 }  // namespace
 }  // namespace strata

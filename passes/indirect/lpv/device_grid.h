@@ -11,6 +11,7 @@
 #include "capture_format/frame/light.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
+#include "passes/indirect/lpv/light_eye.h"
 #include "passes/indirect/lpv/lpv.shared.h"
 #include "passes/scene/light_grids.h"
 
@@ -20,7 +21,9 @@ inline constexpr std::uint64_t channel_bytes = 4 * sizeof(float), half_channel_b
 
 struct DeviceGrid {
     LightGrid grid;
-    GridPlace place;
+    GridPlace place;          ///< as the frame's eye has it: of what surfaces and views read
+    GridPlace lit_place;      ///< as `eye` has it: of what lights it
+    LightEye eye;             ///< the same for all grids of a frame
     bool has_links = false;  ///< blockers stop light between cells
     bool is_fuzzy = false;   ///< surfaces do, from the second step on
     double fixed_one = 1;    ///< 1 in the fixed point of its sums: a power of two
@@ -32,7 +35,7 @@ struct DeviceGrid {
     Buffer macro_cells;      ///< apply/macro_cells.comp; none: taps ask all blockers
     // Of a grid that is kept over frames (kept/); none of them otherwise.
     Buffer gates;                           ///< how many groups its steps have in this frame: three words a gate of lpv.shared.h
-    Buffer starting;                        ///< bits of the grids that are lit anew in this frame, by starting_bit()
+    Buffer starting;                        ///< bits of the grids that are lit anew in this frame (kept.shared.h)
     Buffer even, odd;                       ///< light of steps (stored_cells.glsl), where a later frame goes on with it
     std::size_t bounce = 1;                 ///< of the light in it
     Buffer scale;                           ///< a float: its fixed_one, where that is known on the device alone
@@ -55,8 +58,6 @@ struct DeviceGrid {
     }
     /// One per cell.
     Extent threads() const { return {grid.cells.x, grid.cells.y, grid.cells.z}; }
-    /// Grids from the 32nd on share a bit.
-    std::uint32_t starting_bit() const { return 1u << (number < 31 ? number : 31); }
 };
 
 /// As many threads, or as many groups as the gate of a grid that is kept has in this frame.

@@ -42,7 +42,8 @@ Grid cascade_grid(const LightVolume& volume, std::uint32_t cascade, const glm::d
             .origin = size * (glm::floor(eye / size) - glm::dvec3(volume.cells / 2u)),
             .fade_cells = cascade_fade,
             .iterations = volume.iterations,
-            .occlusion = volume.occlusion};
+            .occlusion = volume.occlusion,
+            .follows_eye = true};
 }
 
 }  // namespace

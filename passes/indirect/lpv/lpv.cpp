@@ -154,9 +154,15 @@ Technique lpv() {
                   .low = 16,
                   .high = 512,
                   .fallback = 128,
-                  .help = "resolution of reflective shadow maps (RSMs), texels per side, for parallel light three times as much; "
-                          "larger: more VPLs",
+                  .help = "largest resolution of reflective shadow maps (RSMs), texels per side, for parallel light three times as "
+                          "much; larger: more VPLs",
                   .scale = Scale::logarithmic}),
+             param<&LpvParams::map_density>(
+                 {.name = "map_density",
+                  .high = 16,
+                  .fallback = 4,
+                  .help = "texels of RSMs per cell width at half of a light's range, for parallel light three times as many; "
+                          "0: map_size decides alone"}),
              param<&LpvParams::injection>({.name = "injection",
                                            .high = 1,
                                            .fallback = .5,
@@ -175,7 +181,7 @@ Technique lpv() {
              param<&LpvParams::relight>(
                  {.name = "relight",
                   .high = 1,
-                  .fallback = relight_always,
+                  .fallback = relight_changed,
                   .help = "frames that light the volumes; always: all; changed: those in which lights, casters, "
                           "blockers or the volume differ",
                   .choices = relights}),
@@ -245,6 +251,7 @@ Technique lpv() {
                      "taps=all",
                      "occlusion=none taps=all",
                      "map_size=64",
+                     "map_density=0",
                      "irradiance=face",
                      "irradiance=face iterations=8",
                      "cell_scale=2",
@@ -254,7 +261,7 @@ Technique lpv() {
                      "apply_resolution=half",
                      "damping=2",
                      "bounces=2",
-                     "relight=changed",
+                     "relight=always",
                      "cell_storage=half",
                      "self_light=kept",
                      "self_light=uninjected",
@@ -295,7 +302,9 @@ Technique lpv() {
                  {.name = "tiles", .help = "8x8-pixel tiles with a surface, summed over all grids (tap_tiles=on)"}),
              counter<&LpvCounters::tiles_near_blockers>(
                  {.name = "tiles near blockers",
-                  .help = "8x8-pixel tiles shaded with visibility tests, summed over all grids (tap_tiles=on)"})},
+                  .help = "8x8-pixel tiles shaded with visibility tests, summed over all grids (tap_tiles=on)"}),
+             counter<&LpvCounters::map_casters>(
+                 {.name = "map casters", .help = "draws into RSMs, summed over maps; 0 in a frame in which light is kept"})},
         .counter_bytes = sizeof(LpvCounters),
         .views =
             {{.name = "visible taps",
@@ -349,6 +358,7 @@ Technique lpv() {
                       "shine on",
               .columns = {{"earlier bounces", ""}, {"injected", "W"}},
               .declare = bounces_table}},
+        .abilities = {.keeps_work = true},
         .beyond_device = beyond_device,
         .claims = {.ratios = lpv_ratios()},
         .declare = declare,

@@ -54,6 +54,8 @@ struct MapPush {
 const float map_shift_u = 0.2155f;
 const float map_shift_v = 0.167f;
 
+const uint injecting_group = 64u;  // threads of a group over the texels of a light's maps
+
 // A light's maps and the grid that they are injected into.
 struct InjectPush {
     GridPlace grid;
@@ -156,16 +158,15 @@ struct LpvCounters {
     uint full_resolution_pixels;
     uint tiles;
     uint tiles_near_blockers;
+    uint map_casters;
 };
 
 // Steps of a grid whose groups kept/decide.comp counts, with relight_changed. Steps of propagation follow.
 const uint gate_cells = 0u;     // clears the sums and resolves them
-const uint gate_one_map = 1u;   // injects from a map
-const uint gate_six_maps = 2u;  // injects from six
-const uint gate_faces = 3u;     // finds the links
-const uint gate_barriers = 4u;  // notes what they were found with
-const uint gate_show = 5u;      // shows what was lit in slices
-const uint gate_first_step = 6u;
+const uint gate_faces = 1u;     // finds the links
+const uint gate_barriers = 2u;  // notes what they were found with
+const uint gate_show = 3u;      // shows what was lit in slices
+const uint gate_first_step = 4u;
 
 #ifdef __cplusplus
 }

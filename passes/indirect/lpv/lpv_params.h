@@ -11,7 +11,8 @@ struct LpvParams {
     std::uint32_t faces;
     std::uint32_t occlusion;
     std::uint32_t taps;
-    std::uint32_t map_size;  ///< texels a side of reflective shadow maps
+    std::uint32_t map_size;  ///< texels a side of reflective shadow maps, at most
+    float map_density;       ///< texels per cell halfway to where a light ends; 0: map_size a side
     float injection;         ///< cells along the normal of what is injected
     std::uint32_t irradiance;
     std::uint32_t macro_cells;  ///< whether taps ask only the blockers of their macro-cell

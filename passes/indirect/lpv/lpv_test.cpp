@@ -114,9 +114,9 @@ TEST(ReflectiveMaps, OfALampHaveTheSolidAngleOfTheirFace) {
     add_square(frame, {0, 0, -2}, {3, 0, 0}, {0, 3, 0});
     Light light = lamp(LightType::omni);
     light.position = {0.1, -0.2, 0};
-    const std::vector<VirtualLight> reflected = ReflectiveMaps(frame, 256).of_local(light);
+    const std::vector<VirtualLight> reflected = ReflectiveMaps(frame, 256, 0).of_local(light, {});
     frame.meshes[0].positions = {vec3(-1.9f, -2.2f, -2), vec3(2.1f, -2.2f, -2), vec3(2.1f, 1.8f, -2), vec3(-1.9f, 1.8f, -2)};
-    const std::vector<VirtualLight> face = ReflectiveMaps(frame, 256).of_local(light);
+    const std::vector<VirtualLight> face = ReflectiveMaps(frame, 256, 0).of_local(light, {});
     EXPECT_GT(reflected.size(), 65536u);
     ASSERT_EQ(face.size(), 65536u);
     EXPECT_NEAR(flux_of(face).x, 2.0944029, 2e-6);
@@ -136,7 +136,7 @@ TEST(ReflectiveMaps, OfTheSunHaveTheAreaOfTheirTexels) {
     const Grid grid{.cells = uvec3(2, 4, 4), .cell_size = 16. / 6, .origin = {-4, -3, -5}};
     const double texel = grid.cell_size / std::hypot(33, 1);
     const double cosine = -double(sun.direction.y) / glm::length(dvec3(sun.direction)), sent = 5 * cosine * texel * texel;
-    const std::vector<VirtualLight> reflected = ReflectiveMaps(frame, 85).of_directional(sun, grid);
+    const std::vector<VirtualLight> reflected = ReflectiveMaps(frame, 85, 0).of_directional(sun, grid);
     ASSERT_EQ(reflected.size(), 255u * 255);
     for (const VirtualLight& light : reflected) {
         ASSERT_NEAR(light.flux.x, sent, 1e-9);
@@ -158,7 +158,7 @@ TEST(ReflectiveMaps, SnapToTheWorldSoThatTexelsStayWhereTheyAre) {
     Light sun = lamp(LightType::directional);
     sun.direction = {0, -1, 0};
     // With a cell around it the grid is 6 m by 4 m: 3^2 + 1 texels in a square meter, turned by 1 in 3, 22 by 18 of them.
-    const ReflectiveMaps maps(frame, 8);
+    const ReflectiveMaps maps(frame, 8, 0);
     const auto here = maps.of_directional(sun, {.cells = uvec3(2, 4, 4), .cell_size = 1, .origin = dvec3(0.1)});
     const auto there = maps.of_directional(sun, {.cells = uvec3(2, 4, 4), .cell_size = 1, .origin = dvec3(0.9, 0.1, 0.6)});
     ASSERT_EQ(here.size(), 576u);
@@ -180,7 +180,7 @@ TEST(ReflectiveMaps, ReflectWhatTheLightSeesFirst) {
     Light spot = lamp(LightType::square_spot);
     spot.direction = {0, 0, -1};
     spot.inner_angle = spot.outer_angle = float(pi / 4);
-    const auto seen = [&] { return ReflectiveMaps(frame, 32).of_local(spot); };
+    const auto seen = [&] { return ReflectiveMaps(frame, 32, 0).of_local(spot, {}); };
     const dvec3 near = flux_of(seen());
     EXPECT_EQ(seen().size(), 1024u);
     EXPECT_NEAR(near.y / near.x, 2, 1e-7);
@@ -203,7 +203,7 @@ TEST(ReflectiveMaps, OfASpotNeedNoRecordedAxis) {
     Light spot = lamp(LightType::round_spot);
     spot.direction = {1, 0, 0};
     spot.axis_u = {0, 1, 0};
-    const auto flux = [&] { return flux_of(ReflectiveMaps(frame, 16).of_local(spot)).x; };
+    const auto flux = [&] { return flux_of(ReflectiveMaps(frame, 16, 0).of_local(spot, {})).x; };
     const double lit = flux();
     EXPECT_GT(lit, 0);
     spot.axis_u = {1, 0, 0};
@@ -215,7 +215,7 @@ TEST(ReflectiveMaps, LeaveToMetalsTheirMirrorImage) {
     add_square(frame, {0, 0, -2}, {9, 0, 0}, {0, 9, 0});
     Light spot = lamp(LightType::round_spot);
     spot.direction = {0, 0, -1};
-    const auto flux = [&] { return flux_of(ReflectiveMaps(frame, 16).of_local(spot)).x; };
+    const auto flux = [&] { return flux_of(ReflectiveMaps(frame, 16, 0).of_local(spot, {})).x; };
     const double lambert = flux();
     frame.materials[0].metallic = 0.75f;
     EXPECT_EQ(flux(), lambert) << "Lambert has no metals";

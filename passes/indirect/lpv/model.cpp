@@ -47,13 +47,14 @@ bool is_fuzzy(const Grid& grid, const LpvParams& params) {
 /// What the lights of a frame make its surfaces reflect.
 class Sources {
 public:
-    Sources(const Frame& frame, const LpvParams& params) : maps_(frame, params.map_size) {
+    Sources(const Frame& frame, std::span<const Grid> grids, const LpvParams& params)
+        : maps_(frame, params.map_size, double(params.map_density)) {
         for (const Light& light : shining_lights(frame)) {
             if (!adds_light(light)) continue;
             if (!has_range(light.type)) {
                 directional_.push_back(light);
             } else {
-                const std::vector<VirtualLight> reflected = maps_.of_local(light);
+                const std::vector<VirtualLight> reflected = maps_.of_local(light, grids);
                 local_.insert(local_.end(), reflected.begin(), reflected.end());
             }
         }
@@ -165,7 +166,7 @@ LitVolumes lit_volumes(const Frame& frame, const LpvParams& params) {
     LitVolumes volumes{.barriers = barriers(frame), .grids = {}};
     const std::vector<Grid> all = grids(frame, std::ldexp(1.0, int(params.cell_scale) - int(cells_recorded)));
     if (all.empty()) return volumes;
-    const Sources sources(frame, params);
+    const Sources sources(frame, all, params);
     for (const Grid& grid : all) volumes.grids.push_back(lit(frame, grid, sources, volumes.barriers, params));
     return volumes;
 }

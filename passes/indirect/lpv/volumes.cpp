@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 #include "capture_format/frame/frame.h"
@@ -85,12 +86,21 @@ ComputeStep gated(ComputeStep builder, const DeviceGrid& grid, std::uint32_t gat
 }
 
 std::vector<DeviceGrid> make_grids(Graph& graph, const FrameImages& frame, const LpvParams& params) {
+    const std::vector<LightGrid> all = light_grids(*frame.recorded, cell_scale(params));
+    std::vector<LightGrid> linked;
+    if (!frame.recorded->blockers.empty())
+        std::ranges::copy_if(all, std::back_inserter(linked), [&](const LightGrid& grid) { return is_axial(grid, params.occlusion); });
+    const LightEye eye = light_eye(*frame.recorded, all, linked);
     std::vector<DeviceGrid> made;
-    for (const LightGrid& grid : light_grids(*frame.recorded, cell_scale(params))) {
-        const glm::dvec3 origin = grid.origin - frame.recorded->view.origin;
+    for (const LightGrid& grid : all) {
+        const auto seen_from = [&](const View& view) {
+            return GridPlace{.origin = glm::vec3(grid.origin - view.origin), .cell = float(grid.cell), .cells = grid.cells};
+        };
         const std::uint32_t occlusion = occlusion_of(grid, params.occlusion);
         DeviceGrid g{.grid = grid,
-                     .place = {.origin = glm::vec3(origin), .cell = float(grid.cell), .cells = grid.cells},
+                     .place = seen_from(frame.recorded->view),
+                     .lit_place = seen_from(eye.view),
+                     .eye = eye,
                      .has_links = is_axial(grid, params.occlusion) && !frame.recorded->blockers.empty(),
                      .is_fuzzy = occlusion == occlusion_fuzzy || occlusion == occlusion_both,
                      .fixed_one = fixed_one(*frame.facts, grid),

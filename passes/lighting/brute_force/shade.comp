@@ -30,8 +30,9 @@ vec3 every_light(MaterialPoint m, ivec3 at) {
 
 void count_shaded(bool shaded) {
     const uint here = subgroupAdd(shaded ? 1u : 0u);
+    const bool is_elected = subgroupElect();  // of those that added: after a branch they may be several groups
     if (!finished(view.extent.x)) atomicAdd(counters.unfinished, 1u);
-    if (!subgroupElect()) return;
+    if (!is_elected) return;
     atomicAdd(counters.samples_shaded, here);
     atomicAdd(counters.evaluations, here * view.light_count);
 }

@@ -47,8 +47,9 @@ void shade_sample(uint tile, ivec3 at, inout Shaded shaded) {
 
 void count(Shaded shaded) {
     const uvec3 all = subgroupAdd(uvec3(shaded.samples, shaded.evaluations, shaded.blocker_tests));
+    const bool is_elected = subgroupElect();  // of those that added: after a branch they may be several groups
     if (!finished(view.extent.x)) atomicAdd(counters.unfinished, 1u);
-    if (!subgroupElect()) return;
+    if (!is_elected) return;
     atomicAdd(counters.samples_shaded, all.x);
     atomicAdd(counters.evaluations, all.y);
     atomicAdd(counters.blocker_tests, all.z);

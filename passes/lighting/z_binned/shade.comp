@@ -50,8 +50,9 @@ vec3 binned_light(MaterialPoint m, ivec3 at) {
 
 void count_shaded(bool shaded) {
     const uint here = subgroupAdd(shaded ? 1u : 0u), tried = subgroupAdd(candidates), read = subgroupAdd(words_read);
+    const bool is_elected = subgroupElect();  // of those that added: after a branch they may be several groups
     if (!finished(view.extent.x)) atomicAdd(counters.unfinished, 1u);
-    if (!subgroupElect()) return;
+    if (!is_elected) return;
     atomicAdd(counters.samples_shaded, here);
     atomicAdd(counters.evaluations, tried);
     atomicAdd(counters.words_read, read);

@@ -6,7 +6,7 @@
 #include "passes/shaders/finished.glsl"
 #include "passes/shaders/lights.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = injecting_group) in;
 
 layout(push_constant, scalar) uniform Push { InjectPush push; };
 layout(constant_id = 22) const uint light_features = every_light_feature;
@@ -54,7 +54,7 @@ void inject(vec3 surface, vec3 n, vec3 flux) {
 
 // A place that a light reaches is on its side of its blockers by the rule of ways, too: else cells behind a blocker would take light.
 bool arrives(LightRecord light, vec3 place, vec3 n) {
-    if (!blockers_pass(light, off_surface(place, n), low_bits(light.blockers), low_bits(light.portals))) return false;
+    if (!blockers_pass(light, place + n * least_surface_offset, low_bits(light.blockers), low_bits(light.portals))) return false;
     return guards == 0u || !is_behind_blocker(light, way_start(LitPlace(view.to_world * place, view.to_world * n)));
 }
 
@@ -66,9 +66,7 @@ vec3 reflected_flux(LightRecord light, vec3 place, vec3 n, ivec3 at) {
     return arrives(light, place, n) ? flux : vec3(0.0);
 }
 
-void main() {
-    const ivec3 at = ivec3(gl_GlobalInvocationID);
-    if (any(greaterThanEqual(at, textureSize(position, 0)))) return;  // a gate of six maps runs where fewer are drawn
+void inject_texel(ivec3 at) {
     const vec4 place = texelFetch(position, at, 0);
     if (place.w == 0.0) return;
     const LightRecord light = lights[push.light];
@@ -82,5 +80,11 @@ void main() {
     }
     const vec3 flux = reflected_flux(light, place.xyz, n, at);
     if (flux != vec3(0.0)) inject(view.to_world * place.xyz, view.to_world * n, flux);
+}
+
+void main() {
+    const ivec3 size = textureSize(position, 0);
+    const int i = int(gl_GlobalInvocationID.x), map = size.x * size.y;
+    if (i < map * size.z) inject_texel(ivec3(i % size.x, i % map / size.x, i / map));
     if (!finished(view.extent.x)) atomicAdd(counters.unfinished, 1u);
 }

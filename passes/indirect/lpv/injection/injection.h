@@ -4,9 +4,12 @@
 #include <vector>
 
 #include "passes/indirect/lpv/device_grid.h"
+#include "passes/indirect/lpv/injection/maps.h"
 #include "passes/indirect/lpv/lpv_params.h"
 
 namespace strata::indirect {
+
+inline MapTexels map_texels(const LpvParams& params) { return {.most = params.map_size, .per_cell = double(params.map_density)}; }
 
 /// 1 in the fixed point of a grid's sums: 2^k such that all that lights can send is no more than 2^30 of a coefficient.
 double fixed_one(const SceneFacts&, const LightGrid&);

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "capture_format/frame/draw.h"
 #include "capture_format/frame/frame.h"
 #include "capture_format/light_types.h"
 #include "passes/frame_images.h"
@@ -55,29 +56,6 @@ double extent(const Light& light, const LightGrid& grid) {
     return 2 * std::numbers::pi * round;
 }
 
-/// A cone from a light around a grid, which ends behind the grid.
-struct ConeTo {
-    glm::dvec3 towards;  ///< unit
-    double angle;        ///< radians, half; pi where the light is near the grid: everything around it
-    double length;       ///< meters
-
-    /// View space.
-    ConeTo(const glm::dvec3& light, const BoundingSphere& grid) {
-        const double away = glm::distance(light, grid.center);
-        towards = away > 0 ? (grid.center - light) / away : glm::dvec3(0, 0, 1);
-        angle = away > grid.radius ? std::asin(grid.radius / away) : std::numbers::pi;
-        length = away + grid.radius;
-    }
-    /// The sphere's center is where it is seen from the light.
-    bool meets(const BoundingSphere& sphere) const {
-        const double away = glm::length(sphere.center);
-        if (away - sphere.radius > length) return false;
-        if (away <= sphere.radius || angle >= std::numbers::pi) return true;
-        const double between = std::acos(std::clamp(glm::dot(sphere.center, towards) / away, -1., 1.));
-        return !(between > angle + std::asin(sphere.radius / away) + 1e-6);
-    }
-};
-
 /// The box of a grid and a cell around it: surfaces beside a cell light it.
 struct MappedBox {
     glm::dvec3 low, high;
@@ -85,11 +63,6 @@ struct MappedBox {
 
     explicit MappedBox(const LightGrid& grid)
         : low(grid.origin - grid.cell), high(grid.origin + grid.cell * (glm::dvec3(grid.cells) + 1.)), cell(grid.cell) {}
-
-    /// View space.
-    BoundingSphere sphere(const View& view) const {
-        return {in_view_space(view, .5 * (low + high)), .5 * glm::length(high - low)};
-    }
 };
 
 /// A place in view space as a map of the light at `from` sees it.
@@ -133,56 +106,39 @@ private:
     glm::dvec2 low_{std::numeric_limits<double>::infinity()}, high_{-std::numeric_limits<double>::infinity()};
 };
 
-/// Joins runs until there are few, with unneeded casters in between.
-std::vector<CasterRun> joined(std::vector<CasterRun> runs) {
-    constexpr std::size_t most_runs = 8;
-    const auto gap = [&](std::size_t i) { return runs[i + 1].first - runs[i].first - runs[i].count; };
-    while (runs.size() > most_runs) {
-        std::size_t narrowest = 0;
-        for (std::size_t i = 1; i + 1 < runs.size(); ++i)
-            if (gap(i) < gap(narrowest)) narrowest = i;
-        runs[narrowest].count = runs[narrowest + 1].first + runs[narrowest + 1].count - runs[narrowest].first;
-        runs.erase(runs.begin() + std::ptrdiff_t(narrowest) + 1);
-    }
-    return runs;
-}
-
-/// `is_seen` is asked about the place of each caster in the list, and its sphere.
-template <typename IsSeen>
-std::vector<CasterRun> runs_of(const SceneFacts& facts, const IsSeen& is_seen) {
-    std::vector<CasterRun> runs;
-    const std::vector<std::uint32_t>& casters = facts.lists().casters;
-    for (std::uint32_t i = 0; i < casters.size(); ++i) {
-        if (!is_seen(i, facts.bounds().spheres[casters[i]])) continue;
-        if (runs.empty() || runs.back().first + runs.back().count < i) runs.push_back({i, 0});
-        ++runs.back().count;
-    }
-    return joined(std::move(runs));
-}
-
-/// Marks each caster that may stand between the light and one of the grids, or within.
-std::vector<bool> casters_between(const SceneFacts& facts, const glm::dvec3& light, std::span<const LightGrid* const> grids) {
-    std::vector<ConeTo> cones;
-    for (const LightGrid* const grid : grids) cones.emplace_back(light, MappedBox(*grid).sphere(facts.frame().view));
-    std::vector<bool> between;
-    for (const std::uint32_t draw : facts.lists().casters) {
-        const BoundingSphere& sphere = facts.bounds().spheres[draw];
-        const BoundingSphere seen{sphere.center - light, sphere.radius};
-        between.push_back(std::ranges::any_of(cones, [&](const ConeTo& cone) { return cone.meets(seen); }));
-    }
-    return between;
-}
-
 }  // namespace
 
-LightMaps maps_around(const SceneFacts& facts, const Light& light, std::span<const LightGrid* const> grids,
-                      std::uint32_t map_size) {
-    LightMaps maps{.size = map_size};
-    const View& view = facts.frame().view;
+MapScene::MapScene(const SceneFacts& facts, const View& by) : view(by) {
+    for (const std::uint32_t caster : facts.lists().casters) {
+        const Draw& draw = facts.frame().draws[caster];
+        casters.push_back(sphere_around(view, draw, facts.bounds().boxes[draw.mesh]));
+    }
+}
+
+std::uint32_t texels_a_side(const Light& light, std::span<const LightGrid> grids, MapTexels texels) {
+    if (texels.per_cell <= 0) return texels.most;
+    const auto slope = [&](double half_angle) { return std::tan(std::min(half_angle, widest_half_angle)); };
+    const bool is_square = facts_of(light.type).cone == LightCone::square;
+    const double outer = slope(double(light.outer_angle)), inner = is_square ? slope(double(light.inner_angle)) : 0;
+    const double widest = is_spot(light.type) ? std::max(outer, inner) : 1;
+    double wanted = 16;
+    for (const LightGrid& grid : grids) {
+        if (grid.is_local && !injects(light, grid)) continue;
+        const MappedBox box(grid);
+        const double away = glm::length(glm::max(glm::abs(box.low - light.position), glm::abs(box.high - light.position)));
+        const double end = grid.is_local ? std::min(double(light.range), away) : double(light.range);
+        wanted = std::max(wanted, texels.per_cell * widest * end / grid.cell);  // a map is as wide as that at half of the way
+    }
+    return std::uint32_t(std::min(8 * std::ceil(wanted / 8), double(texels.most)));
+}
+
+LightMaps maps_around(const MapScene& scene, const Light& light, std::span<const LightGrid* const> grids,
+                      std::uint32_t texels_a_side) {
+    const View& view = scene.view;
     const glm::dvec3 position = in_view_space(view, light.position);
+    LightMaps maps{.size = texels_a_side, .light = glm::vec3(position), .range = light.range};
     const auto row = [&](const glm::dvec3& axis) { return glm::dvec4(axis, -glm::dot(axis, position)); };
-    const std::vector<bool> between = casters_between(facts, position, grids);
-    for (const LightPyramid& pyramid : light_pyramids(facts.frame(), light)) {
+    for (const LightPyramid& pyramid : light_pyramids(view, light)) {
         const Frustum frustum(pyramid.slopes, near);
         SeenPart part;
         for (const LightGrid* const grid : grids) {
@@ -192,13 +148,10 @@ LightMaps maps_around(const SceneFacts& facts, const Light& light, std::span<con
             if (frustum.meets(corners)) part.add(corners, pyramid.slopes);
         }
         if (part.is_empty()) continue;
-        maps.parts.push_back(part.texels(map_size));
+        maps.parts.push_back(part.texels(maps.size));
         maps.slopes = glm::vec2(pyramid.slopes);
         maps.views.push_back(
             rows(row(pyramid.u) / pyramid.slopes.x, row(pyramid.v()) / pyramid.slopes.y, {0, 0, 0, near}, row(pyramid.along)));
-        maps.casters.push_back(runs_of(facts, [&](std::uint32_t i, const BoundingSphere& caster) {
-            return between[i] && frustum.meets(BoundingSphere{seen_along(pyramid, position, caster.center), caster.radius});
-        }));
     }
     return maps;
 }
@@ -215,12 +168,13 @@ struct TexelLattice {
     glm::dvec3 u{0},
         v{0};  ///< what a place is multiplied with: where light through it meets the plane through the world's origin
 
-    TexelLattice(const glm::dvec3& direction, const MappedBox& box, std::uint32_t size) : along(glm::normalize(direction)) {
+    TexelLattice(const glm::dvec3& direction, const MappedBox& box, std::uint32_t size, double most_per_cell)
+        : along(glm::normalize(direction)) {
         for (const glm::length_t i : {1, 2})
             if (std::abs(along[i]) > std::abs(along[facing])) facing = i;
         const double narrowest = std::min(box.high[(facing + 1) % 3] - box.low[(facing + 1) % 3],
                                           box.high[(facing + 2) % 3] - box.low[(facing + 2) % 3]);
-        double n = std::floor(size * box.cell / narrowest);
+        double n = std::min(std::floor(size * box.cell / narrowest), most_per_cell);
         for (; n >= 1; --n)
             if (set(n, box.cell / std::hypot(n, 1.)); width(box) <= size * texel) return;
         // Fewer texels than cells: a whole number of cells makes a texel.
@@ -248,30 +202,33 @@ private:
 
 }  // namespace
 
-LightMaps maps_over(const SceneFacts& facts, const Light& light, const LightGrid& grid, std::uint32_t map_size) {
-    const Frame& frame = facts.frame();
-    const std::uint32_t size = parallel_map_scale * map_size;
+LightMaps maps_over(const MapScene& scene, const Light& light, const LightGrid& grid, MapTexels texels) {
+    const View& view = scene.view;
     const MappedBox box(grid);
-    const TexelLattice lattice(glm::dvec3(light.direction), box, size);
+    const std::uint32_t most = parallel_map_scale * texels.most;
+    const bool is_by_cells = texels.per_cell > 0;
+    const double most_per_cell = is_by_cells ? std::ceil(parallel_map_scale * texels.per_cell) : most;
+    const TexelLattice lattice(glm::dvec3(light.direction), box, most, most_per_cell);
+    const double needed = is_by_cells ? 8 * std::ceil(lattice.width(box) / lattice.texel / 8) : most;
+    const auto size = std::uint32_t(std::min(needed, double(most)));
     const double half = .5 * size * lattice.texel;
     const auto row = [&](const glm::dvec3& axis, double shift) {
         const glm::dvec3 least = glm::min(axis * box.low, axis * box.high);
         const double corner = (std::floor((least.x + least.y + least.z) / lattice.texel - shift) + shift) * lattice.texel;
-        return glm::dvec4(frame.view.to_view * axis, glm::dot(frame.view.origin, axis) - corner - half) / half;
+        return glm::dvec4(view.to_view * axis, glm::dot(view.origin, axis) - corner - half) / half;
     };
     glm::dvec4 x = row(lattice.u, map_shift_u), y = row(lattice.v, map_shift_v);
     if (lattice.along[lattice.facing] < 0) std::swap(x, y);  // front faces stay front faces
-    const glm::dvec3 along = frame.view.to_view * lattice.along, middle = in_view_space(frame.view, .5 * (box.low + box.high));
+    const glm::dvec3 along = view.to_view * lattice.along, middle = in_view_space(view, .5 * (box.low + box.high));
     // A surface behind the grid may still light its last cells.
     const double behind = glm::dot(middle, along) + .5 * glm::length(box.high - box.low) + grid.cell;
-    double before = behind - glm::length(box.high - box.low);
-    for (const std::uint32_t draw : facts.lists().casters) {
-        const BoundingSphere& caster = facts.bounds().spheres[draw];
-        before = std::min(before, glm::dot(caster.center, along) - caster.radius);
-    }
-    before -= 1e-3 * (behind - before);  // so that no caster is clipped for a rounded depth above 1
-    return {.views = {rows(x, y, glm::dvec4(-along, behind) / (behind - before), {0, 0, 0, 1})},
-            .casters = {runs_of(facts, [](std::uint32_t, const BoundingSphere&) { return true; })},
+    double deep = glm::length(box.high - box.low);
+    for (const BoundingSphere& caster : scene.casters)
+        deep = std::max(deep, behind - glm::dot(caster.center, along) + caster.radius);
+    // A power of two times 1.0001: no caster is clipped for a rounded depth above 1, and none makes other depths of the others by
+    // what the place of the frame's eye rounds.
+    deep = 1.0001 * std::exp2(std::ceil(std::log2(deep) + 1e-3));
+    return {.views = {rows(x, y, glm::dvec4(-along, behind) / deep, {0, 0, 0, 1})},
             .parts = {{.columns = {0, size}, .rows = {0, size}}},
             .size = size,
             .texel_area = float(lattice.texel * lattice.texel * std::abs(lattice.along[lattice.facing]))};
@@ -289,7 +246,7 @@ double most_flux(const Light& light, const LightGrid& grid) {
     return strongest(light) * widest_side(light) * extent(light, grid);
 }
 
-MapImages draw_maps(Graph& graph, const FrameImages& frame, const LightMaps& maps) {
+MapImages draw_maps(Graph& graph, const FrameImages& frame, const LightMaps& maps, const LightEye& eye, DrawList casters) {
     const auto image = [&](std::string_view name, Format format) {
         Image made = graph.create(
             std::string(name),
@@ -301,20 +258,19 @@ MapImages draw_maps(Graph& graph, const FrameImages& frame, const LightMaps& map
                      .normal = image("lit normals", Format::rgba16f),
                      .albedo = image("lit albedos", Format::rgba16f)};
     Image depth = image("depth of a light's map", Format::d32f);
-    for (std::uint32_t layer = 0; layer < maps.views.size(); ++layer) {
-        for (const CasterRun& run : maps.casters[layer]) {
-            DrawList casters = frame.casters;
-            casters.first += run.first, casters.count = run.count;
-            DrawStep draw = graph.draw("indirect/lpv/injection/map", casters);
-            fix_materials(draw, frame, Surfaces::opaque)
-                .covers(images.position, {.layer = layer})
-                .covers(images.normal, {.layer = layer})
-                .covers(images.albedo, {.layer = layer})
-                .writes_depth(depth, {.layer = layer})
-                .in_rows(maps.parts[layer].rows)
-                .in_columns(maps.parts[layer].columns)
-                .push(maps.views[layer]);
-        }
+    const std::uint32_t first = casters.first;
+    for (std::uint32_t layer = 0; layer < maps.views.size() && casters.count > 0; ++layer) {
+        casters.first = first + layer * casters.count;
+        DrawStep draw = graph.draw("indirect/lpv/injection/map", casters);
+        fix_materials(draw, frame, Surfaces::opaque)
+            .covers(images.position, {.layer = layer})
+            .covers(images.normal, {.layer = layer})
+            .covers(images.albedo, {.layer = layer})
+            .writes_depth(depth, {.layer = layer})
+            .takes_first(eye.records)
+            .in_rows(maps.parts[layer].rows)
+            .in_columns(maps.parts[layer].columns)
+            .push(maps.views[layer]);
     }
     return images;
 }

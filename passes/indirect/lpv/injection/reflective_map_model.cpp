@@ -25,6 +25,8 @@ constexpr double widest_spot = 85 * 3.14159265358979323846 / 180;
 constexpr double nearest_surface = 0.05;
 // Meters by which rectangles are wider than recorded, as direct light has them at least (docs/algorithms/lighting.md 2.2).
 constexpr double light_slack = 1e-5;
+// Meters: as much as direct light lifts places near the eye.
+constexpr double lift = 0.01;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// View space, either side.
@@ -41,11 +43,12 @@ struct MapLattice {
     glm::dvec2 axis{1, 0};  ///< of the first side of texels; the second is a quarter turn on
     double texel = 1;
     glm::dvec2 corner{0};  ///< of the map, along both sides
+    std::uint32_t texels = 0;  ///< a side that cover all corners
 };
 
-/// Texels whose sides are (n, 1) and (-1, n) over n^2 + 1, for the largest n at which they cover all corners; 1, 2, 3 ... cells
-/// wide where no n does.
-MapLattice map_lattice(std::span<const glm::dvec2> corners, std::uint32_t texels) {
+/// Texels whose sides are (n, 1) and (-1, n) over n^2 + 1, for the largest n up to `finest` at which so many cover all corners; 1,
+/// 2, 3 ... cells wide where no n does.
+MapLattice map_lattice(std::span<const glm::dvec2> corners, std::uint32_t texels, double finest) {
     const auto lattice_of = [&](const glm::dvec2& side) -> std::optional<MapLattice> {
         MapLattice lattice{.axis = glm::normalize(side), .texel = glm::length(side)};
         glm::dvec2 low(std::numeric_limits<double>::max()), high(-low);
@@ -56,9 +59,10 @@ MapLattice map_lattice(std::span<const glm::dvec2> corners, std::uint32_t texels
         const glm::dvec2 shift(map_shift_u, map_shift_v), wide = high - low + lattice.texel;
         if (std::max(wide.x, wide.y) > texels * lattice.texel) return std::nullopt;
         lattice.corner = (glm::floor(low / lattice.texel - shift) + shift) * lattice.texel;
+        lattice.texels = std::uint32_t(std::ceil(std::max(wide.x, wide.y) / lattice.texel));
         return lattice;
     };
-    for (double n = texels; n >= 1; --n)
+    for (double n = std::min(double(texels), finest); n >= 1; --n)
         if (const auto lattice = lattice_of(glm::dvec2(n, 1) / (n * n + 1))) return *lattice;
     for (double n = 1; n <= 1024; ++n)
         if (const auto lattice = lattice_of({n, 0})) return *lattice;
@@ -75,6 +79,7 @@ double spot_slope(float half_angle) { return std::tan(std::min(double(half_angle
 struct ReflectiveMaps::MapSide {
     LightAxes axes;
     glm::dvec2 slopes{1};
+    std::uint32_t texels = 0;  ///< along each
 };
 
 struct ReflectiveMaps::Surface {
@@ -100,8 +105,8 @@ struct ReflectiveMaps::InTheWay {
     }
 };
 
-ReflectiveMaps::ReflectiveMaps(const Frame& frame, std::uint32_t texels_a_side)
-    : frame_(&frame), texels_(texels_a_side), scene_(frame, RayMask::shadow_casters) {}
+ReflectiveMaps::ReflectiveMaps(const Frame& frame, std::uint32_t most_texels, double density)
+    : frame_(&frame), most_texels_(most_texels), density_(density), scene_(frame, RayMask::shadow_casters) {}
 
 /// Calls texel(i, j) for all of a map, rows in parallel, and puts what they give in the order of the rows.
 template <typename Texel>
@@ -136,15 +141,15 @@ bool ReflectiveMaps::is_reached(const Light& light, const InTheWay& in_the_way, 
     const bool is_clipped = std::ranges::any_of(
         light.clip_planes, [&](const ClipPlane& plane) { return glm::dot(plane.normal, surface.position) + plane.distance < 0; });
     if (is_clipped) return false;
-    const glm::dvec3 position = frame_->view.to_view * (surface.position - frame_->view.origin);
+    const glm::dvec3 lifted = surface.position + surface.normal * lift;
     return lets_through(in_the_way.blockers, light_point(*frame_, light),
-                        off_surface(position, frame_->view.to_view * surface.normal));
+                        frame_->view.to_view * (lifted - frame_->view.origin));
 }
 
 std::vector<VirtualLight> ReflectiveMaps::side_of(const Light& light, const InTheWay& in_the_way, const MapSide& side) const {
-    const double texel_area = 4 * side.slopes.x * side.slopes.y / (double(texels_) * texels_);
-    return map_of(texels_, [&](std::uint32_t i, std::uint32_t j) -> std::optional<VirtualLight> {
-        const glm::dvec2 t = (glm::dvec2(i + 0.5, j + 0.5) / double(texels_) * 2.0 - 1.0) * side.slopes;
+    const double texel_area = 4 * side.slopes.x * side.slopes.y / (double(side.texels) * side.texels);
+    return map_of(side.texels, [&](std::uint32_t i, std::uint32_t j) -> std::optional<VirtualLight> {
+        const glm::dvec2 t = (glm::dvec2(i + 0.5, j + 0.5) / double(side.texels) * 2.0 - 1.0) * side.slopes;
         const glm::dvec3 direction = side.axes.along + side.axes.u * t.x + side.axes.v * t.y;
         const auto surface = met({.origin = light.position, .direction = direction, .begin = nearest_surface});
         if (!surface || !is_reached(light, in_the_way, *surface)) return std::nullopt;
@@ -157,16 +162,35 @@ std::vector<VirtualLight> ReflectiveMaps::side_of(const Light& light, const InTh
     });
 }
 
-std::vector<VirtualLight> ReflectiveMaps::of_local(const Light& light) const {
+/// A side of the map is 2 slope d wide at a distance d, so that d texels per cell halfway to the light's end take slope end / cell
+/// times the density. Light ends at its range, or behind a grid that does not follow the eye.
+std::uint32_t ReflectiveMaps::texels_of(const Light& light, std::span<const Grid> grids) const {
+    if (density_ == 0) return most_texels_;
+    double slope = 1;
+    if (is_spot(light.type)) slope = spot_slope(light.outer_angle);
+    if (facts_of(light.type).cone == LightCone::square) slope = std::max(slope, spot_slope(light.inner_angle));
+    double texels = 16;
+    for (const Grid& grid : grids) {
+        const glm::dvec3 half = .5 * grid.cell_size * (glm::dvec3(grid.cells) + 2.0);  // a cell around it is lit, too
+        const glm::dvec3 from_middle = glm::abs(light.position - (grid.origin + half - grid.cell_size));
+        if (!grid.follows_eye && glm::length(glm::max(from_middle - half, 0.0)) >= double(light.range)) continue;
+        const double behind = glm::length(from_middle + half), range = double(light.range);
+        texels = std::max(texels, density_ * slope * (grid.follows_eye ? range : std::min(range, behind)) / grid.cell_size);
+    }
+    return std::uint32_t(std::min(std::ceil(texels / 8) * 8, double(most_texels_)));
+}
+
+std::vector<VirtualLight> ReflectiveMaps::of_local(const Light& light, std::span<const Grid> grids) const {
     const InTheWay in_the_way(*frame_, light);
+    const std::uint32_t texels = texels_of(light, grids);
     if (is_spot(light.type)) {
         const double u = spot_slope(light.outer_angle);
         const double v = facts_of(light.type).cone == LightCone::square ? spot_slope(light.inner_angle) : u;
-        return side_of(light, in_the_way, {.axes = light_axes(light), .slopes = {u, v}});
+        return side_of(light, in_the_way, {.axes = light_axes(light), .slopes = {u, v}, .texels = texels});
     }
     std::vector<VirtualLight> all;
     for (glm::length_t face = 0; face < 6; ++face) {  // +x -x +y -y +z -z
-        MapSide side{.axes = {.along = glm::dvec3(0), .u = glm::dvec3(0)}};
+        MapSide side{.axes = {.along = glm::dvec3(0), .u = glm::dvec3(0)}, .texels = texels};
         side.axes.along[face / 2] = face % 2 == 0 ? 1 : -1;
         side.axes.u[(face / 2 + 1) % 3] = 1;
         side.axes.v = glm::cross(side.axes.along, side.axes.u);
@@ -190,11 +214,11 @@ std::vector<VirtualLight> ReflectiveMaps::of_directional(const Light& light, con
         const glm::dvec3 on_plane = at - way * at[deep];
         corners[i] = {on_plane[(deep + 1) % 3], on_plane[(deep + 2) % 3]};
     }
-    const std::uint32_t texels = 3 * texels_;
-    const MapLattice lattice = map_lattice(corners, texels);
+    const std::uint32_t most = 3 * most_texels_;
+    const MapLattice lattice = map_lattice(corners, most, density_ == 0 ? most : std::ceil(3 * density_));
     const double texel = lattice.texel * grid.cell_size;
     const glm::dvec3 power = glm::max(glm::dvec3(light.intensity), 0.0) * (texel * texel * steepness[deep]);
-    return map_of(texels, [&](std::uint32_t i, std::uint32_t j) -> std::optional<VirtualLight> {
+    return map_of(density_ == 0 ? most : lattice.texels, [&](std::uint32_t i, std::uint32_t j) -> std::optional<VirtualLight> {
         const glm::dvec2 at = lattice.corner + (glm::dvec2(i, j) + 0.5) * lattice.texel;
         const glm::dvec2 flat = grid.cell_size * (at.x * lattice.axis + at.y * glm::dvec2(-lattice.axis.y, lattice.axis.x));
         glm::dvec3 origin = way * grid.origin[deep];

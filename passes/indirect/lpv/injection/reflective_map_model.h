@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -18,11 +19,12 @@ namespace strata::indirect::in_double {
 /// The surfaces of a frame that reflect. Keeps a reference to the frame.
 class ReflectiveMaps {
 public:
-    ReflectiveMaps(const Frame&, std::uint32_t texels_a_side);
+    /// `most_texels` a side; `density`: texels per cell, 0 for as many as may be.
+    ReflectiveMaps(const Frame&, std::uint32_t most_texels, double density);
 
-    /// One map for a spot, six for other lights that are not directional. Row by row.
-    std::vector<VirtualLight> of_local(const Light&) const;
-    /// The map of a directional light over a grid: three times as many texels a side.
+    /// One map for a spot, six for other lights that are not directional. Row by row. As fine as the grids of the frame want.
+    std::vector<VirtualLight> of_local(const Light&, std::span<const Grid>) const;
+    /// The map of a directional light over a grid: three times as fine.
     std::vector<VirtualLight> of_directional(const Light&, const Grid&) const;
 
 private:
@@ -36,12 +38,14 @@ private:
     struct InTheWay;
     template <typename Texel>
     std::vector<VirtualLight> map_of(std::uint32_t texels, const Texel&) const;
+    std::uint32_t texels_of(const Light&, std::span<const Grid>) const;
     std::vector<VirtualLight> side_of(const Light&, const InTheWay&, const MapSide&) const;
     std::optional<Surface> met(const LightRay&) const;
     bool is_reached(const Light&, const InTheWay&, const Surface&) const;
 
     const Frame* frame_;
-    std::uint32_t texels_;
+    std::uint32_t most_texels_;
+    double density_;
     RayScene scene_;
 };
 

@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push { DecidePush push; };
 layout(set = 0, binding = 0, scalar) buffer State { KeptState state; };
 layout(set = 0, binding = 1, scalar) writeonly buffer Work { KeptWork work; };
 layout(set = 0, binding = 2, scalar) writeonly buffer Gates { uvec3 gates[]; };
-layout(set = 0, binding = 3, scalar) buffer Starting { uint starting; };
+layout(set = 0, binding = 3, scalar) buffer Starting { uint starting[]; };
 
 const uvec2 none = uvec2(0u);
 const KeptState nothing = KeptState(none, none, none, none, none, uvec3(0u), 0u, 0u, 0u);
@@ -59,10 +59,8 @@ KeptState state_after(KeptState before, Task w) {
 uvec3 groups_if(bool open, uvec3 threads, uvec3 size) { return open ? (threads + size - 1u) / size : uvec3(0u); }
 
 void write_gates(Task w) {
-    const uvec3 cube = uvec3(4u), square = uvec3(8u, 8u, 1u);
+    const uvec3 cube = uvec3(4u);
     gates[gate_cells] = groups_if(w.starts, push.cells, cube);
-    gates[gate_one_map] = groups_if(w.starts, uvec3(push.one_map_size, push.one_map_size, 1u), square);
-    gates[gate_six_maps] = groups_if(w.starts, uvec3(push.map_size, push.map_size, 6u), square);
     gates[gate_faces] = groups_if(w.finds_links, push.cells * uvec3(1u, 1u, 3u), cube);
     gates[gate_barriers] = groups_if(w.finds_links, uvec3(push.blockers + push.portals, 1u, 1u), uvec3(64u, 1u, 1u));
     gates[gate_show] = groups_if(w.ends, push.cells, cube);
@@ -76,6 +74,9 @@ void main() {
     work.before = before;
     work.after = state_after(before, w);
     if (!is_idle(w)) state = nothing;
-    if (w.starts) atomicOr(starting, push.starting_bit);
+    if (w.starts) {
+        atomicOr(starting[0], starting_bit(push.grid));
+        atomicOr(starting[starting_word(push.grid)], 1u << push.grid % 32u);
+    }
     write_gates(w);
 }

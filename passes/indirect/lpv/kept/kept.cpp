@@ -5,7 +5,6 @@
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/light.h"
 #include "passes/frame_images.h"
-#include "passes/indirect/lpv/injection/maps.h"
 #include "passes/indirect/lpv/kept/kept.shared.h"
 #include "passes/indirect/lpv/kept/keys.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
@@ -15,6 +14,9 @@ namespace {
 
 std::uint32_t count_of(const std::vector<Blocker>& blockers) { return static_cast<std::uint32_t>(blockers.size()); }
 std::uint32_t count_of(const std::vector<Portal>& portals) { return static_cast<std::uint32_t>(portals.size()); }
+
+/// Light that comes in slices is shown late.
+Remembered remembered(const LpvParams& params) { return params.slice > 0 ? Remembered::history : Remembered::work; }
 
 /// A cell of the lattice as shaders count them: differences of near cells are right whatever the lattice is.
 uvec3 wrapped(const glm::i64vec3& cell) { return uvec3(cell); }
@@ -40,7 +42,7 @@ Buffer identities_on_device(Graph& graph, const Frame& frame) {
 KeptGrid decide(Graph& graph, const FrameImages& frame, const LpvParams& params, DeviceGrid& grid, Buffer& starting) {
     const GridKeys keys = keys_of(frame, params, grid);
     const std::uint32_t steps = iterations(params, grid);
-    KeptGrid kept{.state = graph.remember(grid.name("state of kept grid"), sizeof(KeptState)),
+    KeptGrid kept{.state = graph.remember(grid.name("state of kept grid"), sizeof(KeptState), remembered(params)),
                   .work = graph.create(grid.name("work of kept grid"), sizeof(KeptWork)),
                   .lattice = keys.lattice};
     grid.gates = graph.create(grid.name("gates of grid"), (gate_first_step + std::uint64_t{steps}) * sizeof(uvec3));
@@ -57,21 +59,20 @@ KeptGrid decide(Graph& graph, const FrameImages& frame, const LpvParams& params,
                          .cells = grid.grid.cells,
                          .iterations = steps,
                          .slice = params.slice,
-                         .map_size = params.map_size,
-                         .one_map_size = parallel_map_scale * params.map_size,
                          .blockers = count_of(frame.recorded->blockers),
                          .portals = count_of(frame.recorded->portals),
-                         .starting_bit = grid.starting_bit()})
+                         .grid = static_cast<std::uint32_t>(grid.number)})
         .groups({1, 1, 1});
     return kept;
 }
 
-void find_faces(Graph& graph, const FrameImages& frame, const KeptGrid& kept, const Buffer& identities, DeviceGrid& grid) {
+void find_faces(Graph& graph, const FrameImages& frame, Remembered as, const KeptGrid& kept, const Buffer& identities,
+                DeviceGrid& grid) {
     const std::uint64_t bytes = std::uint64_t{grid.cells()} * 3 * sizeof(float);
     const std::uint32_t count = count_of(frame.recorded->blockers) + count_of(frame.recorded->portals);
-    Buffer barriers = graph.remember(grid.name("barriers of kept grid"), count * sizeof(KeptBarrier));
-    Buffer kept_links = graph.remember(grid.name("links by world cell of kept grid"), bytes);
-    grid.links = graph.remember(grid.name("links of kept grid"), bytes);
+    Buffer barriers = graph.remember(grid.name("barriers of kept grid"), count * sizeof(KeptBarrier), as);
+    Buffer kept_links = graph.remember(grid.name("links by world cell of kept grid"), bytes, as);
+    grid.links = graph.remember(grid.name("links of kept grid"), bytes, as);
     const LightGrid& g = grid.grid;
     gated(fix_blockers(graph.compute("indirect/lpv/kept/faces.comp"), frame)
               .updates("Links", grid.links)
@@ -79,7 +80,8 @@ void find_faces(Graph& graph, const FrameImages& frame, const KeptGrid& kept, co
               .loads("Work", kept.work)
               .loads("Identities", identities)
               .loads("Barriers", barriers)
-              .push(FacesPush{.grid = grid.place,
+              .takes_first(grid.eye.records)
+              .push(FacesPush{.grid = grid.lit_place,
                               .lattice = kept.lattice,
                               .first = wrapped(first_cell(g)),
                               .turn = turned(first_cell(g), g.cells)}),
@@ -87,12 +89,13 @@ void find_faces(Graph& graph, const FrameImages& frame, const KeptGrid& kept, co
     gated(fix_blockers(graph.compute("indirect/lpv/kept/barriers.comp"), frame)
               .updates("Barriers", barriers)
               .loads("Identities", identities)
-              .push(grid.place),
+              .takes_first(grid.eye.records)
+              .push(grid.lit_place),
           grid, gate_barriers, {count});
 }
 
 void recall_light(Graph& graph, const LpvParams& params, KeptGrid& kept, DeviceGrid& grid) {
-    const Buffer shown = graph.remember(grid.name("light of kept grid"), grid.total_bytes());
+    const Buffer shown = graph.remember(grid.name("light of kept grid"), grid.total_bytes(), remembered(params));
     if (params.slice == 0) {
         grid.total = shown;
         return;
@@ -107,14 +110,15 @@ void recall_light(Graph& graph, const LpvParams& params, KeptGrid& kept, DeviceG
 
 KeptGrids recall(Graph& graph, const FrameImages& frame, const LpvParams& params, std::vector<DeviceGrid>& grids) {
     KeptGrids kept;
-    Buffer starting = graph.create("grids that are lit anew", sizeof(std::uint32_t));
+    const std::size_t last = grids.empty() ? 0 : grids.back().number;
+    Buffer starting = graph.create("grids that are lit anew", (starting_word(std::uint32_t(last)) + 1) * sizeof(std::uint32_t));
     graph.clear(starting, 0);
     for (DeviceGrid& grid : grids) kept.push_back(decide(graph, frame, params, grid, starting));
     const bool any_links = std::ranges::any_of(grids, &DeviceGrid::has_links);
     const Buffer identities = any_links ? identities_on_device(graph, *frame.recorded) : Buffer();
     for (std::size_t i = 0; i < grids.size(); ++i) {
         grids[i].starting = starting;
-        if (grids[i].has_links) find_faces(graph, frame, kept[i], identities, grids[i]);
+        if (grids[i].has_links) find_faces(graph, frame, remembered(params), kept[i], identities, grids[i]);
         recall_light(graph, params, kept[i], grids[i]);
     }
     return kept;

@@ -1,6 +1,6 @@
 // Light volumes that are kept over frames: a grid is lit where what determines its light changed. The device compares hashes of
 // it with those of the last time, so that a frame is declared the same whatever frames came before. What is remembered changes
-// the cost and never the light; but it is the light as the eye's place at the time rounded it.
+// the cost and never the light.
 #pragma once
 
 #include <vector>

@@ -4,6 +4,8 @@
 #include "passes/indirect/lpv/lpv.shared.h"
 #ifdef __cplusplus
 namespace strata::indirect {
+inline uint starting_bit(uint grid);
+inline uint starting_word(uint grid);
 #endif
 
 // What a grid leaves to the next frame, beside its light and links. Keys are hashes of 64 bits; 0: there is none.
@@ -24,14 +26,18 @@ struct KeptWork {
     KeptState before, after;
 };
 
+// Bits of the grids that are lit anew in this frame: from the second word on those of every grid, in the first word those that casters
+// are asked about, where grids from the 32nd on share a bit.
+uint starting_bit(uint grid) { return 1u << (grid < 31u ? grid : 31u); }
+uint starting_word(uint grid) { return 1u + grid / 32u; }
+
 // What a frame wants of a grid.
 struct DecidePush {
     uvec2 light, place, linked, lattice;  // keys as in KeptState; linked is 0 without links
     uvec3 first, cells;
     uint iterations, slice;
-    uint map_size, one_map_size;  // texels a side of six maps, and of one: as many as parallel light has
     uint blockers, portals;
-    uint starting_bit;
+    uint grid;  // its number
 };
 
 // Hashes of this frame's blockers, then of its portals, as many as a push has room for.
@@ -56,9 +62,26 @@ struct FacesPush {
     uvec3 turn;   // the same, modulo the grid's cells
 };
 
-struct CastersPush {
+// Groups of a light's maps over a grid, where that is lit anew.
+struct MapGate {
+    uint groups;
+    uint grid;  // its number
+};
+const uint map_gates_per_push = 15u;
+struct MapGatesPush {
     uint first, count;
-    uint grids;  // starting bits of those that are lit by what the casters reflect
+    MapGate of[map_gates_per_push];
+};
+
+// Casters of one of a light's maps.
+struct MapCastersPush {
+    mat4 to_clip;
+    vec2 low, high;  // of the part of the map that is drawn, x and y from -1 to 1
+    vec3 light;      // its place, and where it ends, meters; range 0: parallel light
+    float range;
+    uint first, count;  // of the casters among all commands
+    uint to;            // the first of the map's commands
+    uint grids;         // starting bits of those that are lit by what the casters reflect
 };
 
 #ifdef __cplusplus

@@ -1,14 +1,15 @@
 #include "passes/indirect/lpv/kept/keys.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "capture_format/frame/frame.h"
 #include "capture_format/frame/light.h"
 #include "capture_format/light_types.h"
 #include "passes/frame_images.h"
-#include "passes/indirect/lpv/injection/maps.h"
-#include "passes/indirect/lpv/kept/middles.h"
+#include "passes/indirect/lpv/injection/injection.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
+#include "passes/indirect/lpv/volumes.h"
 #include "passes/scene/digest.h"
 #include "passes/scene/light_blockers.h"
 #include "passes/scene/scene_facts.h"
@@ -19,17 +20,23 @@ namespace {
 
 uvec2 words(std::uint64_t hash) { return {static_cast<std::uint32_t>(hash), static_cast<std::uint32_t>(hash >> 32)}; }
 
-uvec2 lattice_key(const Frame& frame, const LightGrid& grid) {
+void add(Digest& digest, const LightEye& eye) { digest.add(eye.view.origin).add(eye.view.to_view); }
+
+uvec2 lattice_key(const DeviceGrid& lit) {
+    const LightGrid& grid = lit.grid;
     Digest digest;
-    if (has_middle_of_either_side(frame, grid)) digest.add(frame.view.origin).add(frame.view.to_view);
+    add(digest, lit.eye);
     digest.add(grid.cell).add(grid.cells).add(grid.is_local);
-    if (grid.is_local) digest.add(grid.origin);
+    // Middles of a cascade's cells round alike wherever it begins where their places are exact.
+    int exponent = 0;
+    const bool is_exact = !grid.is_local && std::frexp(grid.cell, &exponent) == .5;
+    if (!is_exact) digest.add(grid.origin);
     return words(digest.value());
 }
 
-uvec2 place_key(uvec2 lattice, const LpvParams& params, const DeviceGrid& grid) {
+uvec2 place_key(const LpvParams& params, const DeviceGrid& grid) {
     Digest digest;
-    if (grid.has_links) digest.add(lattice);
+    add(digest, grid.eye);
     digest.add(grid.grid.origin).add(grid.grid.cell).add(grid.grid.cells).add(grid.has_links);
     digest.add(iterations(params, grid)).add(params.propagation).add(params.faces).add(params.cell_storage);
     digest.add(params.self_light).add(params.lobes);
@@ -94,14 +101,18 @@ std::vector<uvec2> barrier_identities(const Frame& frame) {
 
 GridKeys keys_of(const FrameImages& frame, const LpvParams& params, const DeviceGrid& grid) {
     const std::vector<uvec2> barriers = barrier_identities(*frame.recorded);
-    GridKeys keys{.lattice = lattice_key(*frame.recorded, grid.grid)};
-    keys.place = place_key(keys.lattice, params, grid);
+    GridKeys keys{.lattice = lattice_key(grid)};
+    keys.place = place_key(params, grid);
     if (grid.has_links) keys.linked = linked_key(keys.lattice, grid.grid, barriers);
     Digest digest;
-    digest.add(keys.place).add(params.map_size).add(params.injection);
+    digest.add(keys.place).add(params.map_size).add(params.map_density).add(params.injection);
     for (const uvec2& barrier : barriers) digest.add(barrier);
-    for (const Light& light : frame.facts->lights())
-        if (injects(light, grid.grid)) add_injected(digest, *frame.facts, light);
+    const std::vector<LightGrid> all = light_grids(*frame.recorded, cell_scale(params));
+    for (const Light& light : frame.facts->lights()) {
+        if (!injects(light, grid.grid)) continue;
+        add_injected(digest, *frame.facts, light);
+        if (has_range(light.type)) digest.add(texels_a_side(light, all, map_texels(params)));
+    }
     keys.light = words(digest.value());
     return keys;
 }

@@ -14,7 +14,7 @@ struct GridKeys {
     uvec2 place{0};   ///< the grid and the rules of its light, whatever is lit
     uvec2 linked{0};  ///< what its links are found with; 0 where it has none
     /// The cells that links lie between. Those of a cascade stay in the world when the cascade moves. They are others for every
-    /// place of the eye where that decides on which side of a blocker a middle is (middles.h).
+    /// place of the eye that they are found by (LightEye).
     uvec2 lattice{0};
 };
 GridKeys keys_of(const FrameImages&, const LpvParams&, const DeviceGrid&);

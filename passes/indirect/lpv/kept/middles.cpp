@@ -10,10 +10,10 @@
 namespace strata::indirect {
 namespace {
 
-/// Meters by which shaders may be wrong about a middle's height over a plane: places are floats relative to the eye.
-double rounding(const Frame& frame, const LightGrid& grid) {
+/// Meters by which shaders may be wrong about a middle's height over a plane: places are floats relative to an eye.
+double rounding(const glm::dvec3& eye, const LightGrid& grid) {
     const glm::dvec3 size = grid.cell * glm::dvec3(grid.cells);
-    return 2e-6 * (glm::distance(grid.origin + .5 * size, frame.view.origin) + glm::length(size));
+    return 2e-6 * (glm::distance(grid.origin + .5 * size, eye) + glm::length(size));
 }
 
 /// Where a blocker's side begins among the middles of a grid's cells: lengths in cells, from the middle of the first.
@@ -63,8 +63,8 @@ bool meets_a_middle(const Plane& plane, const glm::uvec3& cells) {
 
 }  // namespace
 
-bool has_middle_of_either_side(const Frame& frame, const LightGrid& grid) {
-    const double rounded = rounding(frame, grid);
+bool has_middle_of_either_side(const Frame& frame, const glm::dvec3& eye, const LightGrid& grid) {
+    const double rounded = std::max(rounding(eye, grid), rounding(frame.view.origin, grid));
     return std::ranges::any_of(frame.blockers, [&](const Blocker& blocker) {
         return blocker.half_u > 0 && blocker.half_v > 0 && meets_a_middle(plane_of(blocker, grid, rounded), grid.cells);
     });

@@ -1,4 +1,4 @@
-// Where the eye's place decides on which side of a blocker a cell's middle is.
+// Where rounding decides on which side of a blocker a cell's middle is.
 #include <gtest/gtest.h>
 
 #include "capture_format/frame/frame.h"
@@ -14,7 +14,7 @@ const LightGrid half_meters{.origin = glm::dvec3(-2.25), .cell = .5, .cells = gl
 bool meets(const Blocker& blocker) {
     Frame frame;
     frame.blockers = {blocker};
-    return has_middle_of_either_side(frame, half_meters);
+    return has_middle_of_either_side(frame, frame.view.origin, half_meters);
 }
 
 /// A square of two meters.

@@ -13,7 +13,8 @@ void find_links(Graph& graph, const FrameImages& frame, DeviceGrid& grid) {
     grid.links = graph.create(grid.name("links of grid"), std::uint64_t{grid.cells()} * 3 * sizeof(float));
     fix_blockers(graph.compute("indirect/lpv/occlusion/links.comp"), frame)
         .stores("Links", grid.links)
-        .push(grid.place)
+        .takes_first(grid.eye.records)
+        .push(grid.lit_place)
         .over({grid.grid.cells.x, grid.grid.cells.y, 3 * grid.grid.cells.z});
 }
 

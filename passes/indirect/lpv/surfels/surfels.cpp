@@ -13,7 +13,8 @@ void draw_surfels(Graph& graph, const FrameImages& frame, const DeviceGrid& grid
         DrawStep draw = graph.draw(shader, frame.all_opaque);
         fix_materials(draw, frame, Surfaces::opaque)
             .within({texels[u], texels[v]})
-            .push(SurfelPush{.grid = grid.place, .axis = axis});
+            .takes_first(grid.eye.records)
+            .push(SurfelPush{.grid = grid.lit_place, .axis = axis});
         finish(draw);
     }
 }
