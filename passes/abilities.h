@@ -34,8 +34,8 @@ struct Abilities {
     bool is_time_unit = false;
     /// Draws objects and particles in an order that the host sorts in every frame (passes/scene/object_order.h).
     bool sorts_objects = false;
-    /// Leaves work to the next frame that this then need not do (Remembered::work), so that a frame in which nothing changes costs
-    /// less than its first one.
+    /// Leaves work to the next frame that this then need not do (Remembered::work), so that a frame in which nothing changes
+    /// costs less than its first one.
     bool keeps_work = false;
 };
 

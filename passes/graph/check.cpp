@@ -76,7 +76,8 @@ Result<Binding> given(const Graph& graph, const Step& step, const Shader& shader
     for (const Binding& binding : step.bindings)
         if (!is_argument(binding.access) && binding.name == wanted.name) return binding;
     const bool is_buffer = wanted.kind == BindingKind::storage_buffer || wanted.kind == BindingKind::uniform_buffer;
-    const Graph::Offer* offer = is_buffer && !step.offers_first.empty() ? find_offer(graph, step, step.offers_first + wanted.name) : nullptr;
+    const Graph::Offer* offer =
+        is_buffer && !step.offers_first.empty() ? find_offer(graph, step, step.offers_first + wanted.name) : nullptr;
     if (is_buffer && !offer) offer = find_offer(graph, step, wanted.name);
     if (offer) return Binding{.name = wanted.name, .access = access_of(wanted), .buffer = offer->buffer};
     return fail(Fault::usage, "graph.not_bound", "{shader} declares '{binding}', and the step binds nothing to it", shader.name,

@@ -101,7 +101,7 @@ struct BufferRecord {
     std::uint64_t bytes = 0;
     std::uint32_t version = 0;
     std::optional<ImportId> import = {};
-    bool weak = false;        ///< writing it keeps no step alive (counters)
+    bool weak = false;                          ///< writing it keeps no step alive (counters)
     std::optional<Remembered> remembered = {};  ///< outlives the frame: see Graph::remember
 };
 

@@ -33,9 +33,7 @@ std::array<glm::dvec3, 8> view_corners_of(const View& view, const BoundingBox& w
 }
 
 BoundingSphere sphere_around(const View& view, const Draw& draw, const BoundingBox& box) {
-    const auto placed = [&](const glm::dvec3& p) {
-        return in_view_space(view, glm::dvec3(draw.to_world * glm::dvec4(p, 1)));
-    };
+    const auto placed = [&](const glm::dvec3& p) { return in_view_space(view, glm::dvec3(draw.to_world * glm::dvec4(p, 1))); };
     BoundingSphere sphere{placed(0.5 * (box.low + box.high)), 0};
     for (const glm::dvec3& corner : corners_of(box))
         sphere.radius = std::max(sphere.radius, glm::length(placed(corner) - sphere.center));

@@ -116,7 +116,8 @@ bool has_map(const Light& light) {
 void add_local(const Frame& frame, const Light& light, Allocation allocation, std::vector<ShadowView>& views) {
     const std::uint32_t own = std::max(light.shadow.map_size, 1u);
     const std::uint32_t size = allocation == Allocation::need ? needed_size(frame, light) : own;
-    for (const LightPyramid& pyramid : light_pyramids(frame.view, light)) views.push_back(local_view(frame, light, pyramid, size));
+    for (const LightPyramid& pyramid : light_pyramids(frame.view, light))
+        views.push_back(local_view(frame, light, pyramid, size));
 }
 
 }  // namespace

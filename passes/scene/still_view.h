@@ -7,9 +7,10 @@ namespace strata {
 
 struct Frame;  // capture_format/frame.h
 
-/// Looks along the world's axes from the middle of the first light volume; of cascades, which follow the eye, from the middle of 256
-/// of the finest cells each way, which stays while the eye is among them. The world's origin is the middle of such a block. View space is as left-handed as the frame's own. Without a
-/// light volume the frame's own view. Records as it sees them are offered as "Still View", "Still Draws" and so on.
+/// Looks along the world's axes from the middle of the first light volume; of cascades, which follow the eye, from the middle of
+/// 256 of the finest cells each way, which stays while the eye is among them. The world's origin is the middle of such a block.
+/// View space is as left-handed as the frame's own. Without a light volume the frame's own view. Records as it sees them are
+/// offered as "Still View", "Still Draws" and so on.
 View still_view(const Frame&);
 
 }  // namespace strata

@@ -92,10 +92,9 @@ Result<MeasuredRatio> measure(Session& session, const Claim& claim, std::size_t 
     const auto variants = variants_of(session, claim);
     if (!variants) return variants.error();
     const auto& [of, against] = *variants;
-    const std::string pair =
-        fmt::format("{}{} in frame {} against {} in frame {}", label(of.technique->name, of.settings),
-                    of.request.unchanged ? " unchanged" : "", of.request.variant.frame,
-                    label(against.technique->name, against.settings), against.request.variant.frame);
+    const std::string pair = fmt::format("{}{} in frame {} against {} in frame {}", label(of.technique->name, of.settings),
+                                         of.request.unchanged ? " unchanged" : "", of.request.variant.frame,
+                                         label(against.technique->name, against.settings), against.request.variant.frame);
     if (!timed.contains(pair)) {
         auto runs = session.time(std::array{of.request, against.request}, repeats);
         if (!runs) return runs.error();

@@ -385,10 +385,11 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
                    "replay this many times, 2 or more; exit code 7 if any image of any pass differs")
         ->check(from_to(2, 100000))
         ->excludes(until);
-    CLI::Option* time = app.add_option("--time", options->timed,
-                                       "time every step over this many repeats after a warm-up, as if no frame came before; print median and "
-                                       "deviation, and what stages that keep work take where nothing changed")
-                            ->check(from_to(1, 10000));
+    CLI::Option* time =
+        app.add_option("--time", options->timed,
+                       "time every step over this many repeats after a warm-up, as if no frame came before; print median and "
+                       "deviation, and what stages that keep work take where nothing changed")
+            ->check(from_to(1, 10000));
     app.add_option(
            "-o,--output", options->folder,
            "write .exr, .png and .json of each frame to this folder, named for the --use and --set choices; default: write "

@@ -249,8 +249,9 @@ ColumnsOfRows times(const Report& report) {
          [](const Row& row) { return row.stage_ms; }},
         {{.key = "unchanged_ms",
           .title = "unchanged ms",
-          .help = "median time of the stage in milliseconds where nothing changed since the frame before, of techniques that keep "
-                  "work; all other times are of a frame that nothing came before",
+          .help =
+              "median time of the stage in milliseconds where nothing changed since the frame before, of techniques that keep "
+              "work; all other times are of a frame that nothing came before",
           .kind = CellKind::median,
           .better = Better::less,
           .label = "ms of the stage in an unchanged frame",

@@ -28,7 +28,7 @@ struct CommandRange {
 
 /// What still_view() sees: offered as "Still View" and so on. Nothing in a frame without light volumes.
 struct StillRecords : LightRecords {
-    std::vector<ViewRecord> views;   ///< one
+    std::vector<ViewRecord> views;  ///< one
     std::vector<DrawRecord> draws;  ///< of Frame::draws; motion is as the frame's own eye sees it
 };
 

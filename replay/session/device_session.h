@@ -173,7 +173,7 @@ private:
     std::optional<SceneRecords> not_uploaded_;  ///< the loaded frame's scene, until a plan is known to fit beside it
     std::uint64_t memory_budget_ = 0;
     std::map<std::uint64_t, Remembered> remembered_;  ///< buffers that are there, by their keys
-    RunTimes times_;                      ///< of the latest request
+    RunTimes times_;                                  ///< of the latest request
     std::optional<Found> found_;
     /// Of the latest row_fragments(), or of transparent_fragments() where the frame's unit of light is not the recorded one.
     std::optional<FragmentLists> recorded_fragments_;

@@ -337,7 +337,9 @@ TEST(hiz_two_phase, draws_depth_once_in_one_phase_and_twice_in_two_and_remembers
         }
         EXPECT_EQ(draws, phases == 0 ? 1u : 2u);
         EXPECT_EQ(dispatches, 2 * draws);  // 8 levels above the pixels, four at a time
-        EXPECT_EQ(std::ranges::count_if(graph.buffers(), [](const BufferRecord& buffer) { return buffer.remembered.has_value(); }), phases == 0 ? 0 : 1);
+        EXPECT_EQ(
+            std::ranges::count_if(graph.buffers(), [](const BufferRecord& buffer) { return buffer.remembered.has_value(); }),
+            phases == 0 ? 0 : 1);
         EXPECT_EQ(graph.record(images.opaque.commands).bytes, 40u);
         EXPECT_EQ(images.opaque.first, 0u);
         EXPECT_EQ(images.opaque.count, 2u);

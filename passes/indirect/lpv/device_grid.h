@@ -21,9 +21,9 @@ inline constexpr std::uint64_t channel_bytes = 4 * sizeof(float), half_channel_b
 
 struct DeviceGrid {
     LightGrid grid;
-    GridPlace place;          ///< as the frame's eye has it: of what surfaces and views read
-    GridPlace lit_place;      ///< as `eye` has it: of what lights it
-    LightEye eye;             ///< the same for all grids of a frame
+    GridPlace place;         ///< as the frame's eye has it: of what surfaces and views read
+    GridPlace lit_place;     ///< as `eye` has it: of what lights it
+    LightEye eye;            ///< the same for all grids of a frame
     bool has_links = false;  ///< blockers stop light between cells
     bool is_fuzzy = false;   ///< surfaces do, from the second step on
     double fixed_one = 1;    ///< 1 in the fixed point of its sums: a power of two

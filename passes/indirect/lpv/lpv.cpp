@@ -154,8 +154,9 @@ Technique lpv() {
                   .low = 16,
                   .high = 512,
                   .fallback = 128,
-                  .help = "largest resolution of reflective shadow maps (RSMs), texels per side, for parallel light three times as "
-                          "much; larger: more VPLs",
+                  .help =
+                      "largest resolution of reflective shadow maps (RSMs), texels per side, for parallel light three times as "
+                      "much; larger: more VPLs",
                   .scale = Scale::logarithmic}),
              param<&LpvParams::map_density>(
                  {.name = "map_density",

@@ -89,7 +89,8 @@ std::vector<DeviceGrid> make_grids(Graph& graph, const FrameImages& frame, const
     const std::vector<LightGrid> all = light_grids(*frame.recorded, cell_scale(params));
     std::vector<LightGrid> linked;
     if (!frame.recorded->blockers.empty())
-        std::ranges::copy_if(all, std::back_inserter(linked), [&](const LightGrid& grid) { return is_axial(grid, params.occlusion); });
+        std::ranges::copy_if(all, std::back_inserter(linked),
+                             [&](const LightGrid& grid) { return is_axial(grid, params.occlusion); });
     const LightEye eye = light_eye(*frame.recorded, all, linked);
     std::vector<DeviceGrid> made;
     for (const LightGrid& grid : all) {

@@ -45,7 +45,8 @@ Image peel(Graph& graph, const FrameImages& images, std::uint32_t pass, Targets&
     graph.clear(targets.depth, {});
     DrawStep draw = draw_fragments_untested(graph, "transparency/depth_peeling/peel", images.transparent, images);
     draw.covers(targets.color).covers(targets.through).writes_depth(targets.depth).samples("peeled_depth", peeled_depth);
-    // Without counted draws the passes behind the last layer draw and find nothing.
+    // Without counted draws the passes behind the last layer draw and find nothing. lavapipe 22.3 takes the count for every later
+    // indirect draw of the frame, too; there is none but those of layers.
     if (pass > 0 && has(images.capabilities, Capability::counted_draws)) draw.counted(draw_counts, pass * sizeof(std::uint32_t));
     return spread(graph, targets.depth, "depth_peeling peeled depth");
 }

@@ -39,7 +39,8 @@ std::vector<Injected> injected_lights(const FrameImages& frame, const LpvParams&
             if (injects(lights[i], grid.grid)) reached.push_back(&grid);
         if (reached.empty()) continue;
         if (!has_range(lights[i].type)) {
-            for (DeviceGrid* const grid : reached) injected.push_back({i, maps_over(scene, lights[i], grid->grid, texels), {grid}});
+            for (DeviceGrid* const grid : reached)
+                injected.push_back({i, maps_over(scene, lights[i], grid->grid, texels), {grid}});
             continue;
         }
         std::vector<const LightGrid*> lit;
@@ -55,7 +56,8 @@ Buffer gates_of_maps(Graph& graph, std::span<const Injected> all) {
     std::vector<MapGate> of;
     for (const Injected& injected : all)
         for (const DeviceGrid* const grid : injected.grids)
-            of.push_back({.groups = (injected.texels() + injecting_group - 1) / injecting_group, .grid = static_cast<std::uint32_t>(grid->number)});
+            of.push_back({.groups = (injected.texels() + injecting_group - 1) / injecting_group,
+                          .grid = static_cast<std::uint32_t>(grid->number)});
     Buffer gates = graph.create("gates of lights' maps", of.size() * sizeof(uvec3));
     const auto count = static_cast<std::uint32_t>(of.size());
     for (std::uint32_t first = 0; first < count; first += map_gates_per_push) {
@@ -77,7 +79,8 @@ DrawList casters_of_maps(Graph& graph, const FrameImages& frame, const Injected&
     std::uint32_t bits = 0;
     for (const DeviceGrid* of : injected.grids) bits |= starting_bit(static_cast<std::uint32_t>(of->number));
     const LightMaps& maps = injected.maps;
-    casters.commands = graph.create("commands of casters in a light's maps", maps.views.size() * casters.count * sizeof(DrawCommand));
+    casters.commands =
+        graph.create("commands of casters in a light's maps", maps.views.size() * casters.count * sizeof(DrawCommand));
     casters.first = 0;
     for (std::uint32_t view = 0; view < maps.views.size() && casters.count > 0; ++view) {
         const auto [columns, rows] = maps.parts[view];
@@ -112,20 +115,20 @@ void inject(Graph& graph, const FrameImages& frame, const LpvParams& params, con
     const MapImages images = draw_maps(graph, frame, maps, injected.grids.front()->eye, casters);
     for (DeviceGrid* const grid : injected.grids) {
         ComputeStep step = fix_blockers(graph.compute("indirect/lpv/injection/inject.comp"), frame)
-                  .samples("position", images.position)
-                  .samples("normal", images.normal)
-                  .samples("albedo", images.albedo)
-                  .updates("Sums", grid->sums)
-                  .fixes("guards", grid->has_links ? 1u : 0u)
-                  .fixes("channels", grid->channels)
-                  .fixes("light_features", frame.facts->light_features())
-                  .takes_first(grid->eye.records)
-                  .push(InjectPush{.grid = grid->lit_place,
-                                   .light = injected.light,
-                                   .slopes = maps.slopes,
-                                   .texel_area = maps.texel_area,
-                                   .fixed_one = float(grid->fixed_one),
-                                   .bias = params.injection});
+                               .samples("position", images.position)
+                               .samples("normal", images.normal)
+                               .samples("albedo", images.albedo)
+                               .updates("Sums", grid->sums)
+                               .fixes("guards", grid->has_links ? 1u : 0u)
+                               .fixes("channels", grid->channels)
+                               .fixes("light_features", frame.facts->light_features())
+                               .takes_first(grid->eye.records)
+                               .push(InjectPush{.grid = grid->lit_place,
+                                                .light = injected.light,
+                                                .slopes = maps.slopes,
+                                                .texel_area = maps.texel_area,
+                                                .fixed_one = float(grid->fixed_one),
+                                                .bias = params.injection});
         gates ? step.indirect(gates, gate++ * sizeof(uvec3)) : step.over({injected.texels()});
     }
 }

@@ -210,7 +210,7 @@ LightMaps maps_over(const MapScene& scene, const Light& light, const LightGrid& 
     const double most_per_cell = is_by_cells ? std::ceil(parallel_map_scale * texels.per_cell) : most;
     const TexelLattice lattice(glm::dvec3(light.direction), box, most, most_per_cell);
     const double needed = is_by_cells ? 8 * std::ceil(lattice.width(box) / lattice.texel / 8) : most;
-    const auto size = std::uint32_t(std::min(needed, double(most)));
+    const std::uint32_t size = needed < most ? std::uint32_t(needed) : most;  // of a direction that is no number, too
     const double half = .5 * size * lattice.texel;
     const auto row = [&](const glm::dvec3& axis, double shift) {
         const glm::dvec3 least = glm::min(axis * box.low, axis * box.high);

@@ -54,8 +54,8 @@ struct MapTexels {
     double per_cell = 0;     ///< halfway to where a light ends; 0: as many as `most`
 };
 /// Texels a side of the maps of a light that has a position: so many that `per_cell` of them are as wide as a cell of any of the
-/// frame's grids, in multiples of 8, at least 16. A cascade counts wherever it is, and light ends in it at its range, so that maps
-/// stay as they are when the eye moves; a local grid counts where the light reaches it.
+/// frame's grids, in multiples of 8, at least 16. A cascade counts wherever it is, and light ends in it at its range, so that
+/// maps stay as they are when the eye moves; a local grid counts where the light reaches it.
 std::uint32_t texels_a_side(const Light&, std::span<const LightGrid>, MapTexels);
 
 /// The maps of a light that has a position: one of a spot, else six, without those that see nothing of any of the grids.
@@ -71,7 +71,8 @@ bool injects(const Light&, const LightGrid&);
 /// The most that a light can send in all directions and channels, W; of parallel light into a grid. For sums in fixed point.
 double most_flux(const Light&, const LightGrid&);
 
-/// Images with a layer per view, drawn. `casters`: all of them for each view in turn, those that it need not draw without instances.
+/// Images with a layer per view, drawn. `casters`: all of them for each view in turn, those that it need not draw without
+/// instances.
 struct MapImages {
     Image position, normal, albedo;
 };

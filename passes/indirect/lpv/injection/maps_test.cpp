@@ -90,7 +90,8 @@ TEST(LightMaps, OfALampFarFromAGridAreASmallPartOfOneSide) {
     const Frame frame = cubes(numbers);
     const SceneFacts facts(frame);
     const LightGrid* const grids[] = {&mapped_grid};
-    const LightMaps maps = maps_around(MapScene(facts, frame.view), {.type = LightType::omni, .position = {40, 0, 0}, .range = 100}, grids, 128);
+    const LightMaps maps =
+        maps_around(MapScene(facts, frame.view), {.type = LightType::omni, .position = {40, 0, 0}, .range = 100}, grids, 128);
     ASSERT_EQ(maps.views.size(), 1u);
     // The nearest face of the grid and a cell around it: 3 x 4 m at 37.5 m.
     EXPECT_NEAR(maps.parts[0].columns.count * maps.parts[0].rows.count, 128 * 128 * 3 * 4 / (75. * 75), 50);
@@ -119,7 +120,8 @@ TEST(LightMaps, HaveTexelsByTheCellsThatALightReaches) {
     lamp.position.x = 0;
     lamp.range = std::numeric_limits<float>::infinity();
     EXPECT_EQ(texels(lamp, cascade), 128u);
-    const Light spot{.type = LightType::round_spot, .position = {0, 0, 0}, .intensity = {1, 1, 1}, .range = 6, .outer_angle = std::atan(.5f)};
+    const Light spot{
+        .type = LightType::round_spot, .position = {0, 0, 0}, .intensity = {1, 1, 1}, .range = 6, .outer_angle = std::atan(.5f)};
     EXPECT_EQ(texels(spot, cascade), 24u);
 }
 

@@ -42,12 +42,12 @@ glm::dvec3 surface_normal(const Frame& frame, const Hit& hit, const Attributes& 
 struct MapLattice {
     glm::dvec2 axis{1, 0};  ///< of the first side of texels; the second is a quarter turn on
     double texel = 1;
-    glm::dvec2 corner{0};  ///< of the map, along both sides
+    glm::dvec2 corner{0};      ///< of the map, along both sides
     std::uint32_t texels = 0;  ///< a side that cover all corners
 };
 
-/// Texels whose sides are (n, 1) and (-1, n) over n^2 + 1, for the largest n up to `finest` at which so many cover all corners; 1,
-/// 2, 3 ... cells wide where no n does.
+/// Texels whose sides are (n, 1) and (-1, n) over n^2 + 1, for the largest n up to `finest` at which so many cover all corners;
+/// 1, 2, 3 ... cells wide where no n does.
 MapLattice map_lattice(std::span<const glm::dvec2> corners, std::uint32_t texels, double finest) {
     const auto lattice_of = [&](const glm::dvec2& side) -> std::optional<MapLattice> {
         MapLattice lattice{.axis = glm::normalize(side), .texel = glm::length(side)};
@@ -142,8 +142,7 @@ bool ReflectiveMaps::is_reached(const Light& light, const InTheWay& in_the_way, 
         light.clip_planes, [&](const ClipPlane& plane) { return glm::dot(plane.normal, surface.position) + plane.distance < 0; });
     if (is_clipped) return false;
     const glm::dvec3 lifted = surface.position + surface.normal * lift;
-    return lets_through(in_the_way.blockers, light_point(*frame_, light),
-                        frame_->view.to_view * (lifted - frame_->view.origin));
+    return lets_through(in_the_way.blockers, light_point(*frame_, light), frame_->view.to_view * (lifted - frame_->view.origin));
 }
 
 std::vector<VirtualLight> ReflectiveMaps::side_of(const Light& light, const InTheWay& in_the_way, const MapSide& side) const {
@@ -162,8 +161,8 @@ std::vector<VirtualLight> ReflectiveMaps::side_of(const Light& light, const InTh
     });
 }
 
-/// A side of the map is 2 slope d wide at a distance d, so that d texels per cell halfway to the light's end take slope end / cell
-/// times the density. Light ends at its range, or behind a grid that does not follow the eye.
+/// A side of the map is 2 slope d wide at a distance d, so that d texels per cell halfway to the light's end take slope end /
+/// cell times the density. Light ends at its range, or behind a grid that does not follow the eye.
 std::uint32_t ReflectiveMaps::texels_of(const Light& light, std::span<const Grid> grids) const {
     if (density_ == 0) return most_texels_;
     double slope = 1;

@@ -26,8 +26,8 @@ struct KeptWork {
     KeptState before, after;
 };
 
-// Bits of the grids that are lit anew in this frame: from the second word on those of every grid, in the first word those that casters
-// are asked about, where grids from the 32nd on share a bit.
+// Bits of the grids that are lit anew in this frame: from the second word on those of every grid, in the first word those that
+// casters are asked about, where grids from the 32nd on share a bit.
 uint starting_bit(uint grid) { return 1u << (grid < 31u ? grid : 31u); }
 uint starting_word(uint grid) { return 1u + grid / 32u; }
 
