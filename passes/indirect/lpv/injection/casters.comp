@@ -16,8 +16,8 @@ layout(set = 0, binding = 1, scalar) readonly buffer Starting { uint starting[];
 layout(set = 0, binding = 2, scalar) writeonly buffer Commands { DrawCommand commands[]; };
 layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
 
-// Whether a sphere reaches below the plane dot(plane, (p, 1)) = 0.
-bool reaches_below(vec4 plane, vec3 center, float radius) { return dot(plane.xyz, center) + plane.w <= radius * length(plane.xyz); }
+// Whether a sphere reaches below the plane dot(plane, (p, 1)) = 0; one that is no number does.
+bool reaches_below(vec4 plane, vec3 center, float radius) { return !(dot(plane.xyz, center) + plane.w > radius * length(plane.xyz)); }
 
 bool is_seen(vec3 center, float bound_radius) {
     const float away = distance(center, push.light), radius = bound_radius + bound_slack * (1.0 + length(center) + away + bound_radius);
