@@ -101,7 +101,7 @@ std::span<const FrameImageRow> frame_images();
 /// Null when there is no such image.
 const FrameImageRow* find_frame_image(std::string_view name);
 
-/// What shaders that read `sample` varyings fix as `sample_near`: the near plane where these must be taken to the sample, else 0.
+/// Fixed as `sample_near` by shaders that read `sample` varyings: the near plane where these must be taken to the sample, else 0.
 float sample_near(const FrameImages&);
 
 /// The samples of a multisampled image as layers: a copy in general, the image itself where it has one sample and is no

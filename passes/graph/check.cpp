@@ -71,14 +71,19 @@ Access access_of(const ShaderBinding& binding) {
     return binding.read ? Access::updated : Access::stored;
 }
 
+/// The offer of a block's name under the step's prefix, else of the name alone.
+const Graph::Offer* offer_to(const Graph& graph, const Step& step, std::string_view name) {
+    if (!step.offers_first.empty())
+        if (const Graph::Offer* offer = find_offer(graph, step, fmt::format("{}{}", step.offers_first, name))) return offer;
+    return find_offer(graph, step, name);
+}
+
 /// What the step or an offer gives the shader for this name.
 Result<Binding> given(const Graph& graph, const Step& step, const Shader& shader, const ShaderBinding& wanted) {
     for (const Binding& binding : step.bindings)
         if (!is_argument(binding.access) && binding.name == wanted.name) return binding;
     const bool is_buffer = wanted.kind == BindingKind::storage_buffer || wanted.kind == BindingKind::uniform_buffer;
-    const Graph::Offer* offer =
-        is_buffer && !step.offers_first.empty() ? find_offer(graph, step, step.offers_first + wanted.name) : nullptr;
-    if (is_buffer && !offer) offer = find_offer(graph, step, wanted.name);
+    const Graph::Offer* offer = is_buffer ? offer_to(graph, step, wanted.name) : nullptr;
     if (offer) return Binding{.name = wanted.name, .access = access_of(wanted), .buffer = offer->buffer};
     return fail(Fault::usage, "graph.not_bound", "{shader} declares '{binding}', and the step binds nothing to it", shader.name,
                 wanted.name);

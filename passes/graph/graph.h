@@ -32,7 +32,7 @@ public:
     Self& updates(std::string name, Buffer&);
     /// Sets a specialization constant by its name in the shader.
     Self& fixes(std::string name, SpecValue);
-    /// Of what is offered, takes "prefix name" before "name"; with an empty prefix "name" alone.
+    /// Takes the offer of "prefix name" before that of "name"; with an empty prefix that of "name" alone.
     Self& takes_first(const std::string& prefix);
     /// The push constant block: its size is checked against the shader's.
     template <typename T>
@@ -129,7 +129,8 @@ public:
     Image import(std::string name, Shape, ImportId);
     Buffer create(std::string name, std::uint64_t bytes);
     Buffer import(std::string name, std::uint64_t bytes, ImportId);
-    /// What frames leave to the next: zero in a session's first run, then as the last run that declared the same left it.
+    /// A buffer that frames leave to the next: zero in a session's first run, then as the last run that declared the same left
+    /// it.
     Buffer remember(std::string name, std::uint64_t bytes, Remembered = Remembered::history);
 
     /// A .comp shader by its path below passes/, without "passes/": "transparency/weighted/resolve.comp".

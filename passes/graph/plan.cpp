@@ -137,7 +137,7 @@ namespace {
 
 using Ids = std::set<std::uint32_t>;
 
-/// Of the planned steps, which feed what the frame is for; `work`: buffers of remembered work that count as such.
+/// Marks each planned step that feeds the frame's purpose; `work`: buffers of remembered work that belong to it.
 std::vector<bool> steps_that_feed(const Graph& graph, const Plan& plan, const Ids& work) {
     Needed needed;
     for (const Image image : graph.kept_images()) needed.images.insert(image.id);

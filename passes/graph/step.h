@@ -90,7 +90,7 @@ struct ImageRecord {
     std::optional<ImportId> import = {};
 };
 
-/// What a frame does with what the one before it left.
+/// The use that a frame makes of a buffer that the one before it left.
 enum class Remembered {
     history,  ///< shows it: what the frame gives depends on it
     work,     ///< does it once: the frame costs less, and gives the same

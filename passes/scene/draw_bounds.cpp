@@ -26,6 +26,10 @@ std::array<glm::dvec3, 8> corners_of(const BoundingBox& box) {
     return corners;
 }
 
+double farthest_distance(const BoundingBox& box, const glm::dvec3& from) {
+    return glm::length(glm::max(glm::abs(box.low - from), glm::abs(box.high - from)));
+}
+
 std::array<glm::dvec3, 8> view_corners_of(const View& view, const BoundingBox& world) {
     std::array<glm::dvec3, 8> corners = corners_of(world);
     for (glm::dvec3& corner : corners) corner = in_view_space(view, corner);

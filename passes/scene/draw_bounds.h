@@ -19,6 +19,8 @@ struct BoundingBox {
 };
 BoundingBox box_around(std::span<const glm::vec3> points);
 std::array<glm::dvec3, 8> corners_of(const BoundingBox&);
+/// From a place to the corner that is farthest from it.
+double farthest_distance(const BoundingBox&, const glm::dvec3& from);
 /// The corners in view space of a box in the world.
 std::array<glm::dvec3, 8> view_corners_of(const View&, const BoundingBox& world);
 

@@ -21,6 +21,8 @@ struct LightPyramid {
     glm::dvec3 v() const { return glm::cross(along, u); }
 };
 
+/// The slopes of the sides of a light's pyramids; it has a position.
+glm::dvec2 pyramid_slopes(const Light&);
 /// One of a spot; of any other light that has a position six, the faces of a cube that stands along the world's axes: +x, -x, +y,
 /// -y, +z, -z.
 std::vector<LightPyramid> light_pyramids(const View&, const Light&);

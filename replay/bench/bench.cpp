@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <utility>
 
 #include "passes/registry.h"
 #include "passes/stages.h"
@@ -42,7 +43,7 @@ Result<std::pair<Variant, Variant>> variants_of(Session& session, const Claim& c
     base.variant.frame = claim.against_frame.value_or(base.variant.frame);
     const auto against = variant_of(*claim.technique, claim.ratio->against, base);
     if (!against) return against.error();
-    for (const Variant* const variant : std::array<const Variant*, 2>{&*of, &*against})
+    for (const Variant* variant : {&std::as_const(*of), &*against})
         if (const auto fits = check(session, *variant); !fits) return fits.error();
     return std::pair{*of, *against};
 }

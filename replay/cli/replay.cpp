@@ -106,6 +106,9 @@ Result<void> write_frame(const Request& request, const Replayed& replayed, const
     return {};
 }
 
+/// The name in a line of Run::choices.
+std::string_view technique_of(std::string_view choice) { return choice.substr(0, choice.find(' ')); }
+
 /// Milliseconds by step, with their spread.
 void print_times(const Run& run) {
     for (const StepRecord& step : run.steps)
@@ -118,12 +121,13 @@ void print_times(const Run& run) {
     if (run.unchanged_frame_ms) print_unchanged(*run.unchanged_frame_ms, "frame");
 }
 
-/// Times once more what techniques that keep work take in a frame that follows itself.
+/// Times a frame that follows itself, where a technique keeps work.
 Result<void> time_unchanged(Session& session, Request request, std::size_t repeats, Run& run) {
     std::vector<std::string> keeping;
-    for (const auto& [stage, ms] : run.stage_ms)
-        for (const Technique& technique : techniques())
-            if (technique.abilities.keeps_work && run.choices.at(stage).starts_with(technique.name)) keeping.push_back(stage);
+    for (const auto& [stage, choice] : run.choices) {
+        const auto technique = find_technique(technique_of(choice));
+        if (technique && (*technique)->abilities.keeps_work) keeping.push_back(stage);
+    }
     if (keeping.empty()) return {};
     request.unchanged = true;
     const auto runs = session.time(std::span(&request, 1), repeats);
@@ -286,7 +290,7 @@ Result<void> check_supported(const Request& request, const Run& run) {
 
 /// "811229 fragments, 187 deepest": what the technique of a choice line counted.
 std::string counters_of(const Run& run, std::string_view choice) {
-    const std::string technique(choice.substr(0, choice.find(' ')));
+    const std::string technique(technique_of(choice));
     if (run.not_counted.contains(technique)) return "not counted: a step that counts was left out";
     std::string text;
     for (const CounterRecord& counter : run.counters)

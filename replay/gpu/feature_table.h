@@ -29,7 +29,7 @@ Capabilities capabilities_of(const vk::raii::PhysicalDevice&);
 bool counts_invocations(const vk::raii::PhysicalDevice&);
 /// The family of the one queue: graphics and compute with timestamps.
 std::optional<std::uint32_t> queue_family(const vk::raii::PhysicalDevice&);
-/// Of timestamps of that family: the bits that count.
+/// The bits of that family's timestamps that count.
 std::uint64_t timestamp_mask(const vk::raii::PhysicalDevice&);
 
 /// Whether pipelines can say what the compiler made of them (VK_KHR_pipeline_executable_properties).

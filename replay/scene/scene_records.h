@@ -26,7 +26,7 @@ struct CommandRange {
     std::uint32_t first = 0, count = 0;
 };
 
-/// What still_view() sees: offered as "Still View" and so on. Nothing in a frame without light volumes.
+/// The records as still_view() sees them, offered as "Still View" and so on. None in a frame without light volumes.
 struct StillRecords : LightRecords {
     std::vector<ViewRecord> views;  ///< one
     std::vector<DrawRecord> draws;  ///< of Frame::draws; motion is as the frame's own eye sees it
@@ -57,9 +57,9 @@ SceneRecords scene_records(const SceneFacts&);
 
 // The parts, each in its own file.
 void add_geometry(const SceneFacts&, SceneRecords&);  // geometry.cpp: vertices, indices, draws, commands
-void add_still(const SceneFacts&, SceneRecords&);     // what light volumes are lit by, after all others
 void add_materials(const Frame&, SceneRecords&);      // materials.cpp
 void add_textures(const Frame&, SceneRecords&);
 void add_lights(const SceneFacts&, SceneRecords&);  // lights.cpp: lights and what stops them, shadows, view
+void add_still(const SceneFacts&, SceneRecords&);   // geometry.cpp: StillRecords, of what the others added
 
 }  // namespace strata

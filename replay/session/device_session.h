@@ -148,12 +148,14 @@ private:
     void upload_scene();
     /// Zeros for what frames leave to the next and none left yet.
     void make_remembered(const Plan&);
-    /// The next run does all of its work.
+    /// Drops the work that frames left to the next (Remembered::work).
     void forget_work();
     /// The one place where a device's collapse becomes an Error.
     template <typename Action>
     std::invoke_result_t<Action> failures_as_errors(Action);
-    Result<Execution> execute(const Declaration&, RunOptions);
+    /// Remembered work is found where an earlier frame did it, or all of it is done in this one.
+    enum class Work { done, found };
+    Result<Execution> execute(const Declaration&, RunOptions, Work = Work::done);
     /// Factor between recorded and stored radiance of the loaded frame.
     double pre_exposure() const { return loaded_->frame.pre_exposure; }
     /// An image of the loaded frame in the recorded unit of light.

@@ -160,7 +160,6 @@ Result<HostImage> DeviceSession::peek(const Request& request, std::size_t step, 
     if (!handle) return fail(Fault::usage, "frame.unknown_image", "the frame has no image '{image}'", image);
     if (!last_write(plan, handle, step + 1))
         return fail(Fault::usage, "session.not_written_yet", "'{image}' is not written yet after step {step}", image, step);
-    forget_work();
     return execute(*declared, {.until = step, .peeks = {{step, handle}}}).and_then([&](auto& execution) {
         return as_recorded(image, std::move(execution.peeked.front()));
     });
@@ -197,7 +196,6 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
     for (const LeftOutput& output : outputs_left_by(d, *passes_before).all)
         result.push_back({std::string(output.name), peeks.add(output.step, output.image)});
 
-    forget_work();
     const auto execution = execute(d, peeks.options());
     if (!execution) return execution.error();
     remember(d, *execution);
@@ -238,7 +236,6 @@ Result<Run> DeviceSession::run_with_passes(const Request& request) {
             tables.push_back({output, peeks.add(*step, source.second)});
     for (std::size_t pass = 0; pass < d.frame.passes.size(); ++pass) of_passes.push_back(peek_outputs(d, pass, peeks));
 
-    forget_work();
     const auto execution = execute(d, peeks.options());
     if (!execution) return execution.error();
     Run run = finished(d, *execution);
@@ -298,7 +295,6 @@ Result<std::vector<StepImages>> DeviceSession::step_images(const Request& reques
         }
         steps.push_back({i, plan.scopes[step.scope], step.name, {}});
     }
-    forget_work();
     auto execution = execute(*declared, options);
     if (!execution) return execution.error();
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -321,7 +317,6 @@ Result<std::vector<StepImages>> DeviceSession::pixel_steps(const Request& reques
         for (const Image image : written_by(*declared, plan.steps[i]))
             if (const auto texel = texel_under(declared->graph.shape(image), frame, pixel))
                 options.peeks.push_back({i, image, texel});
-    forget_work();
     auto execution = execute(*declared, options);
     if (!execution) return execution.error();
     std::vector<StepImages> steps;

@@ -72,7 +72,7 @@ Result<Run> DeviceSession::run(const Request& request) {
     }
     const bool checks_light = request.light == LightCheck::on && memory_budget_ == 0;
     const std::vector<LightPeek> light = checks_light ? peek_at_light(d, options) : std::vector<LightPeek>();
-    const auto execution = execute(d, options);
+    const auto execution = execute(d, options, Work::found);
     if (!execution) return execution.error();
     Run run = finished(d, *execution, options.until);
     for (const LightPeek& at : light) check_light(d, at.pass, at.image, execution->peeked[at.peek], run);
@@ -95,7 +95,7 @@ Result<Run> DeviceSession::run_from(const Request& request, Stage stage, const I
         }
         return {};
     });
-    const auto execution = uploaded ? execute(*declared, {}) : Result<Execution>(uploaded.error());
+    const auto execution = uploaded ? execute(*declared, {}, Work::found) : Result<Execution>(uploaded.error());
     for (const auto& [id, image] : declared->given) executor_->forget(id);
     if (!execution) return execution.error();
     return finished(*declared, *execution);
@@ -245,7 +245,8 @@ void DeviceSession::give_back_memory() {
     release_freed_memory();
 }
 
-Result<Execution> DeviceSession::execute(const Declaration& d, RunOptions options) {
+Result<Execution> DeviceSession::execute(const Declaration& d, RunOptions options, Work work) {
+    if (work == Work::done) forget_work();
     options.stop = stop_;
     const bool uses_memo = !d.memo_writes.empty() || !d.scopes_from_memo.empty();
     auto execution = check_going()

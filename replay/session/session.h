@@ -118,7 +118,7 @@ struct Run {
     // What they are the spreads of, in turn.
     std::vector<double> frame_ms_by_repeat;
     std::map<std::string, std::vector<double>> stage_ms_by_repeat, stage_sort_ms_by_repeat;
-    /// Of a frame that follows itself, where a technique keeps work (Request::unchanged): of the frame, and by stage.
+    /// Times of a frame that follows itself, where a technique keeps work (Request::unchanged): the frame's, and by stage.
     std::optional<Spread> unchanged_frame_ms;
     std::map<std::string, Spread> unchanged_stage_ms;
     std::map<std::string, std::uint64_t> stage_invocations;  ///< with timing: how often its fragment and compute shaders ran

@@ -176,7 +176,6 @@ Result<StepCounts> DeviceSession::count(const Request& request) {
     if (counting.empty() && std::ranges::none_of(plan.steps, indirect_work)) return counts;
     const auto declared = declare_counts(request, {*loaded_, scene_, device(), shaders()}, plan, counting);
     if (!declared) return declared.error();
-    forget_work();
     const auto execution = execute(*declared, {.kept_images = KeptImages::left});
     if (!execution) return execution.error();
     counts.counters = summed(read_counters(*declared, *execution));

@@ -87,9 +87,10 @@ void add_results(Run& whole, Run executed) {
 Result<DeviceSession::TimedRun> DeviceSession::time_alone(const Request& request) {
     const auto declared = prepare(request, nullptr, Keep::outputs);
     if (!declared) return declared.error();
-    if (!request.unchanged) forget_work();
-    else if (const auto before = execute(*declared, {}); !before) return before.error();
-    auto execution = execute(*declared, {.timestamps = Timestamps::on});
+    const Work work = request.unchanged ? Work::found : Work::done;
+    if (request.unchanged)
+        if (const auto before = execute(*declared, {}, work); !before) return before.error();
+    auto execution = execute(*declared, {.timestamps = Timestamps::on}, work);
     if (!execution) return execution.error();
     TimedRun timed{finished(*declared, *execution), std::move(execution->step_costs)};
     return timed;
@@ -129,7 +130,6 @@ Result<DeviceSession::RepeatTimes> DeviceSession::time_one_repeat(std::span<cons
         }
         std::optional<std::vector<StepCost>> costs;
         if (requests.size() > 1 && !requests[i].unchanged) {
-            forget_work();
             const auto declared = prepare_with_memo(requests[i], {.timestamps = Timestamps::on});
             if (!declared) return declared.error();
             const auto execution = execute(*declared, {.timestamps = Timestamps::on});

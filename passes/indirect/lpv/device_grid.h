@@ -21,18 +21,18 @@ inline constexpr std::uint64_t channel_bytes = 4 * sizeof(float), half_channel_b
 
 struct DeviceGrid {
     LightGrid grid;
-    GridPlace place;         ///< as the frame's eye has it: of what surfaces and views read
-    GridPlace lit_place;     ///< as `eye` has it: of what lights it
-    LightEye eye;            ///< the same for all grids of a frame
-    bool has_links = false;  ///< blockers stop light between cells
-    bool is_fuzzy = false;   ///< surfaces do, from the second step on
-    double fixed_one = 1;    ///< 1 in the fixed point of its sums: a power of two
-    std::size_t number = 0;  ///< in the order of light_grids()
-    Buffer sums;             ///< what is injected, in fixed point
-    Buffer links;            ///< occlusion/links.comp; none without has_links
-    Buffer later_links;      ///< occlusion/fuzzy.comp, of all steps but the first; none without is_fuzzy
-    Buffer total;            ///< all that cells ever held (stored_cells.glsl)
-    Buffer macro_cells;      ///< apply/macro_cells.comp; none: taps ask all blockers
+    GridPlace place;           ///< as the frame's eye has it: of what surfaces and views read
+    GridPlace lit_place;       ///< as `eye` has it: of what lights it
+    LightEye eye;              ///< the same for all grids of a frame
+    bool has_links = false;    ///< blockers stop light between cells
+    bool is_fuzzy = false;     ///< surfaces do, from the second step on
+    double fixed_one = 1;      ///< 1 in the fixed point of its sums: a power of two
+    std::uint32_t number = 0;  ///< in the order of light_grids()
+    Buffer sums;               ///< what is injected, in fixed point
+    Buffer links;              ///< occlusion/links.comp; none without has_links
+    Buffer later_links;        ///< occlusion/fuzzy.comp, of all steps but the first; none without is_fuzzy
+    Buffer total;              ///< all that cells ever held (stored_cells.glsl)
+    Buffer macro_cells;        ///< apply/macro_cells.comp; none: taps ask all blockers
     // Of a grid that is kept over frames (kept/); none of them otherwise.
     Buffer gates;                           ///< how many groups its steps have in this frame: three words a gate of lpv.shared.h
     Buffer starting;                        ///< bits of the grids that are lit anew in this frame (kept.shared.h)

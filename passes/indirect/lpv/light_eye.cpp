@@ -6,18 +6,17 @@
 
 #include "capture_format/frame/frame.h"
 #include "passes/indirect/lpv/kept/middles.h"
+#include "passes/scene/draw_bounds.h"
 #include "passes/scene/still_view.h"
 
 namespace strata::indirect {
-
 namespace {
 
 /// From here on a float rounds places by a third of what light is moved across borders of cells (receiving_cell.glsl), or by
 /// 1/10,000 of a cell.
 bool is_far(const LightGrid& grid, const glm::dvec3& eye) {
-    const glm::dvec3 end = grid.origin + grid.cell * glm::dvec3(grid.cells);
-    const glm::dvec3 farthest = glm::max(glm::abs(grid.origin - eye), glm::abs(end - eye));
-    return !(glm::length(farthest) < std::min(512., 1024 * grid.cell));
+    const BoundingBox box{grid.origin, grid.origin + grid.cell * glm::dvec3(grid.cells)};
+    return !(farthest_distance(box, eye) < std::min(512., 1024 * grid.cell));
 }
 
 bool has_unit_axes(const glm::dmat3& m) {

@@ -105,7 +105,7 @@ std::vector<DeviceGrid> make_grids(Graph& graph, const FrameImages& frame, const
                      .has_links = is_axial(grid, params.occlusion) && !frame.recorded->blockers.empty(),
                      .is_fuzzy = occlusion == occlusion_fuzzy || occlusion == occlusion_both,
                      .fixed_one = fixed_one(*frame.facts, grid),
-                     .number = made.size(),
+                     .number = static_cast<std::uint32_t>(made.size()),
                      .storage = params.cell_storage,
                      .channels = params.self_light == self_facing ? facing_channels : color_channels};
         g.sums = graph.create(g.name("injected light of grid"), g.sums_bytes());

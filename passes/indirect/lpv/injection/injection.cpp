@@ -30,7 +30,7 @@ std::vector<Injected> injected_lights(const FrameImages& frame, const LpvParams&
     if (grids.empty()) return {};
     const std::vector<LightGrid> all = light_grids(*frame.recorded, cell_scale(params));  // also those that nobody reads
     const MapTexels texels = map_texels(params);
-    const MapScene scene(*frame.facts, grids.front().eye.view);
+    const View& eye = grids.front().eye.view;
     const std::span<const Light> lights = frame.facts->lights();
     std::vector<Injected> injected;
     for (std::uint32_t i = 0; i < lights.size(); ++i) {
@@ -40,12 +40,12 @@ std::vector<Injected> injected_lights(const FrameImages& frame, const LpvParams&
         if (reached.empty()) continue;
         if (!has_range(lights[i].type)) {
             for (DeviceGrid* const grid : reached)
-                injected.push_back({i, maps_over(scene, lights[i], grid->grid, texels), {grid}});
+                injected.push_back({i, maps_over(*frame.facts, eye, lights[i], grid->grid, texels), {grid}});
             continue;
         }
         std::vector<const LightGrid*> lit;
         std::ranges::transform(reached, std::back_inserter(lit), [](const DeviceGrid* grid) { return &grid->grid; });
-        LightMaps maps = maps_around(scene, lights[i], lit, texels_a_side(lights[i], all, texels));
+        LightMaps maps = maps_around(eye, lights[i], lit, texels_a_side(lights[i], all, texels));
         if (!maps.views.empty()) injected.push_back({i, std::move(maps), std::move(reached)});
     }
     return injected;
@@ -56,8 +56,7 @@ Buffer gates_of_maps(Graph& graph, std::span<const Injected> all) {
     std::vector<MapGate> of;
     for (const Injected& injected : all)
         for (const DeviceGrid* const grid : injected.grids)
-            of.push_back({.groups = (injected.texels() + injecting_group - 1) / injecting_group,
-                          .grid = static_cast<std::uint32_t>(grid->number)});
+            of.push_back({.groups = (injected.texels() + injecting_group - 1) / injecting_group, .grid = grid->number});
     Buffer gates = graph.create("gates of lights' maps", of.size() * sizeof(uvec3));
     const auto count = static_cast<std::uint32_t>(of.size());
     for (std::uint32_t first = 0; first < count; first += map_gates_per_push) {
@@ -77,7 +76,7 @@ DrawList casters_of_maps(Graph& graph, const FrameImages& frame, const Injected&
     const DeviceGrid& grid = *injected.grids.front();
     DrawList casters = frame.casters;
     std::uint32_t bits = 0;
-    for (const DeviceGrid* of : injected.grids) bits |= starting_bit(static_cast<std::uint32_t>(of->number));
+    for (const DeviceGrid* of : injected.grids) bits |= starting_bit(of->number);
     const LightMaps& maps = injected.maps;
     casters.commands =
         graph.create("commands of casters in a light's maps", maps.views.size() * casters.count * sizeof(DrawCommand));

@@ -108,33 +108,23 @@ private:
 
 }  // namespace
 
-MapScene::MapScene(const SceneFacts& facts, const View& by) : view(by) {
-    for (const std::uint32_t caster : facts.lists().casters) {
-        const Draw& draw = facts.frame().draws[caster];
-        casters.push_back(sphere_around(view, draw, facts.bounds().boxes[draw.mesh]));
-    }
-}
-
 std::uint32_t texels_a_side(const Light& light, std::span<const LightGrid> grids, MapTexels texels) {
     if (texels.per_cell <= 0) return texels.most;
-    const auto slope = [&](double half_angle) { return std::tan(std::min(half_angle, widest_half_angle)); };
-    const bool is_square = facts_of(light.type).cone == LightCone::square;
-    const double outer = slope(double(light.outer_angle)), inner = is_square ? slope(double(light.inner_angle)) : 0;
-    const double widest = is_spot(light.type) ? std::max(outer, inner) : 1;
+    const glm::dvec2 slopes = pyramid_slopes(light);
+    const double widest = std::max(slopes.x, slopes.y);
     double wanted = 16;
     for (const LightGrid& grid : grids) {
         if (grid.is_local && !injects(light, grid)) continue;
         const MappedBox box(grid);
-        const double away = glm::length(glm::max(glm::abs(box.low - light.position), glm::abs(box.high - light.position)));
+        const double away = farthest_distance({box.low, box.high}, light.position);
         const double end = grid.is_local ? std::min(double(light.range), away) : double(light.range);
         wanted = std::max(wanted, texels.per_cell * widest * end / grid.cell);  // a map is as wide as that at half of the way
     }
     return std::uint32_t(std::min(8 * std::ceil(wanted / 8), double(texels.most)));
 }
 
-LightMaps maps_around(const MapScene& scene, const Light& light, std::span<const LightGrid* const> grids,
+LightMaps maps_around(const View& view, const Light& light, std::span<const LightGrid* const> grids,
                       std::uint32_t texels_a_side) {
-    const View& view = scene.view;
     const glm::dvec3 position = in_view_space(view, light.position);
     LightMaps maps{.size = texels_a_side, .light = glm::vec3(position), .range = light.range};
     const auto row = [&](const glm::dvec3& axis) { return glm::dvec4(axis, -glm::dot(axis, position)); };
@@ -202,8 +192,7 @@ private:
 
 }  // namespace
 
-LightMaps maps_over(const MapScene& scene, const Light& light, const LightGrid& grid, MapTexels texels) {
-    const View& view = scene.view;
+LightMaps maps_over(const SceneFacts& facts, const View& view, const Light& light, const LightGrid& grid, MapTexels texels) {
     const MappedBox box(grid);
     const std::uint32_t most = parallel_map_scale * texels.most;
     const bool is_by_cells = texels.per_cell > 0;
@@ -223,8 +212,11 @@ LightMaps maps_over(const MapScene& scene, const Light& light, const LightGrid& 
     // A surface behind the grid may still light its last cells.
     const double behind = glm::dot(middle, along) + .5 * glm::length(box.high - box.low) + grid.cell;
     double deep = glm::length(box.high - box.low);
-    for (const BoundingSphere& caster : scene.casters)
-        deep = std::max(deep, behind - glm::dot(caster.center, along) + caster.radius);
+    for (const std::uint32_t caster : facts.lists().casters) {
+        const Draw& draw = facts.frame().draws[caster];
+        const BoundingSphere sphere = sphere_around(view, draw, facts.bounds().boxes[draw.mesh]);
+        deep = std::max(deep, behind - glm::dot(sphere.center, along) + sphere.radius);
+    }
     // A power of two times 1.0001: no caster is clipped for a rounded depth above 1, and none makes other depths of the others by
     // what the place of the frame's eye rounds.
     deep = 1.0001 * std::exp2(std::ceil(std::log2(deep) + 1e-3));

@@ -10,7 +10,6 @@
 #include "passes/graph/step.h"
 #include "passes/indirect/lpv/light_eye.h"
 #include "passes/indirect/lpv/lpv.shared.h"
-#include "passes/scene/draw_bounds.h"
 #include "passes/scene/light_grids.h"
 
 namespace strata {
@@ -23,14 +22,6 @@ struct Light;        // capture_format/frame/light.h
 }  // namespace strata
 
 namespace strata::indirect {
-
-/// What maps are drawn of, as an eye sees it (LightEye).
-struct MapScene {
-    View view;
-    std::vector<BoundingSphere> casters;  ///< around each of DrawLists::casters
-
-    MapScene(const SceneFacts&, const View&);
-};
 
 struct MapPart {
     PixelColumns columns;
@@ -58,11 +49,12 @@ struct MapTexels {
 /// maps stay as they are when the eye moves; a local grid counts where the light reaches it.
 std::uint32_t texels_a_side(const Light&, std::span<const LightGrid>, MapTexels);
 
-/// The maps of a light that has a position: one of a spot, else six, without those that see nothing of any of the grids.
-LightMaps maps_around(const MapScene&, const Light&, std::span<const LightGrid* const>, std::uint32_t texels_a_side);
+/// The maps of a light that has a position, as an eye sees it: one of a spot, else six, without those that see nothing of any of
+/// the grids.
+LightMaps maps_around(const View&, const Light&, std::span<const LightGrid* const>, std::uint32_t texels_a_side);
 /// One map of parallel light over the grid, three times as fine. A grid that moves by whole cells up or down has other texels on
 /// its walls: the light of `courtyard` changes by 11 % with as large a map, by 2.7 % with one twice as large.
-LightMaps maps_over(const MapScene&, const Light&, const LightGrid&, MapTexels);
+LightMaps maps_over(const SceneFacts&, const View&, const Light&, const LightGrid&, MapTexels);
 inline constexpr std::uint32_t parallel_map_scale = 3;
 
 /// Whether a light adds light to a grid: it shines, and its range reaches what the grid's cells are before. Its negative channels

@@ -69,7 +69,7 @@ TEST(LightMaps, HoldEveryPlaceOfAGrid) {
         const Frame frame = cubes(numbers);
         const SceneFacts facts(frame);
         const Light light{.type = LightType::omni, .position = glm::dvec3(numbers.box(scene % 2 == 0 ? 9.f : 2.f)), .range = 30};
-        const LightMaps maps = maps_around(MapScene(facts, frame.view), light, grids, 128);
+        const LightMaps maps = maps_around(frame.view, light, grids, 128);
         for (const MapPart& part : maps.parts) cropped += part.columns.count < 128 || part.rows.count < 128 ? 1 : 0;
         const glm::dvec3 from = frame.view.to_view * (light.position - frame.view.origin);
         for (int ray = 0; ray < 50; ++ray) {
@@ -90,8 +90,7 @@ TEST(LightMaps, OfALampFarFromAGridAreASmallPartOfOneSide) {
     const Frame frame = cubes(numbers);
     const SceneFacts facts(frame);
     const LightGrid* const grids[] = {&mapped_grid};
-    const LightMaps maps =
-        maps_around(MapScene(facts, frame.view), {.type = LightType::omni, .position = {40, 0, 0}, .range = 100}, grids, 128);
+    const LightMaps maps = maps_around(frame.view, {.type = LightType::omni, .position = {40, 0, 0}, .range = 100}, grids, 128);
     ASSERT_EQ(maps.views.size(), 1u);
     // The nearest face of the grid and a cell around it: 3 x 4 m at 37.5 m.
     EXPECT_NEAR(maps.parts[0].columns.count * maps.parts[0].rows.count, 128 * 128 * 3 * 4 / (75. * 75), 50);
@@ -130,8 +129,8 @@ TEST(LightMaps, OfParallelLightHaveNoMoreTexelsThanCellsAskFor) {
     const Frame frame = cubes(numbers);
     const SceneFacts facts(frame);
     const Light sun{.type = LightType::directional, .direction = {0, -1, 0}, .intensity = {1, 1, 1}};
-    const LightMaps fine = maps_over(MapScene(facts, frame.view), sun, mapped_grid, {.most = 128, .per_cell = 0});
-    const LightMaps coarse = maps_over(MapScene(facts, frame.view), sun, mapped_grid, {.most = 128, .per_cell = 2});
+    const LightMaps fine = maps_over(facts, frame.view, sun, mapped_grid, {.most = 128, .per_cell = 0});
+    const LightMaps coarse = maps_over(facts, frame.view, sun, mapped_grid, {.most = 128, .per_cell = 2});
     // 6 x 6 + 1 squares make the square of a cell.
     EXPECT_NEAR(double(coarse.texel_area), .25 / 37, 1e-9);
     EXPECT_EQ(coarse.size, 72u) << "5 m and 4 m along axes turned by 1 in 6: (6 x 5 + 4) / .5 + 1 = 69";

@@ -61,7 +61,7 @@ KeptGrid decide(Graph& graph, const FrameImages& frame, const LpvParams& params,
                          .slice = params.slice,
                          .blockers = count_of(frame.recorded->blockers),
                          .portals = count_of(frame.recorded->portals),
-                         .grid = static_cast<std::uint32_t>(grid.number)})
+                         .grid = grid.number})
         .groups({1, 1, 1});
     return kept;
 }
@@ -110,8 +110,8 @@ void recall_light(Graph& graph, const LpvParams& params, KeptGrid& kept, DeviceG
 
 KeptGrids recall(Graph& graph, const FrameImages& frame, const LpvParams& params, std::vector<DeviceGrid>& grids) {
     KeptGrids kept;
-    const std::size_t last = grids.empty() ? 0 : grids.back().number;
-    Buffer starting = graph.create("grids that are lit anew", (starting_word(std::uint32_t(last)) + 1) * sizeof(std::uint32_t));
+    const std::uint32_t last = grids.empty() ? 0 : grids.back().number;
+    Buffer starting = graph.create("grids that are lit anew", (starting_word(last) + 1) * sizeof(std::uint32_t));
     graph.clear(starting, 0);
     for (DeviceGrid& grid : grids) kept.push_back(decide(graph, frame, params, grid, starting));
     const bool any_links = std::ranges::any_of(grids, &DeviceGrid::has_links);
