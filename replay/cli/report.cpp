@@ -16,6 +16,7 @@
 #include "replay/cli/given_options.h"
 #include "replay/cli/left_out.h"
 #include "replay/cli/limits.h"
+#include "replay/cli/report_needs.h"
 #include "replay/cli/table_output.h"
 #include "replay/cli/verb_options.h"
 #include "replay/isa/gpu_models.h"
@@ -45,7 +46,8 @@ struct ReportArguments {
     std::optional<double> minutes;
     std::optional<std::uint32_t> flicker;
     std::optional<double> dolly, pan;
-    bool hard_cases = false, variants = false;
+    bool hard_cases = false, variants = false, needs = false;
+    std::string eye;
     TableOutput output;
 };
 
@@ -283,10 +285,21 @@ Result<void> check_answered(std::span<const Report> made) {
                 only.capture_name);
 }
 
+/// --needs: techniques are not compared, so what compares them does not apply.
+Result<void> report_needs(const ReportArguments& options, std::span<const std::filesystem::path> captures, const CLI::App& app) {
+    const auto fits = check_not_given(app,
+                                      {"--stage", "--techniques", "--defaults", "--error", "--error-at", "--metric", "--within",
+                                       "--memory", "--cost", "--sweep", "--minutes", "--flicker"},
+                                      "--needs compares no techniques");
+    if (!fits) return fits;
+    return strata::report_needs(NeedsArguments{captures, options.open, options.choices, options.frames, options.eye,
+                                               options.repeats.value_or(3), options.output});
+}
+
 Result<void> report(const ReportArguments& options, const CLI::App& app) {
     TableOutput output = options.output;
-    output.may_be_page = true;
-    output.may_be_plot = !options.hard_cases;
+    output.may_be_page = !options.needs;
+    output.may_be_plot = !options.hard_cases && !options.needs;
     if (const auto fits = check_ending(output); !fits) return fits;
     const OutputFormat format = file_format(output, OutputFormat::text);
     if (options.hard_cases) {
@@ -300,9 +313,10 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
     if (options.captures.empty())
         return fail(Fault::usage, "options.missing", "a {option} is required; --hard-cases builds frames and needs none",
                     "capture");
+    const auto captures = captures_of(options.captures);
+    if (options.needs) return captures ? report_needs(options, *captures, app) : captures.error();
     const auto wanted = request_of(options);
     if (!wanted) return wanted.error();
-    const auto captures = captures_of(options.captures);
     if (!captures) return captures.error();
     ReportRequest request = *wanted;
     request.wants_pictures = format == OutputFormat::html;
@@ -359,6 +373,12 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
     app.add_flag("--variants", options->variants,
                  "run --hard-cases also at each technique's other settings, not only at the defaults")
         ->needs(hard_cases);
+    CLI::Option* needs =
+        app.add_flag("--needs", options->needs,
+                     "show what frames make and how much of it is read: by stage and by image or buffer, with times")
+            ->excludes(hard_cases);
+    add_eye(app, options->eye);
+    app.get_option("--eye")->needs(needs);
     add_options(app, options->open.device);
     app.add_flag("--allow-partial", options->open.allow_partial, "read the complete frames of a truncated file");
     add_options(app, options->choices);

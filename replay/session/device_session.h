@@ -19,6 +19,7 @@
 namespace strata {
 
 class GlslSources;
+struct ProductUses;
 struct StepCounts;
 
 class DeviceSession final : public Session {
@@ -62,7 +63,8 @@ public:
         std::vector<StepCost> step_costs;
     };
     Result<TimedRun> time_alone(const Request&);
-    Result<StepCounts> count(const Request&);  ///< see count_steps()
+    Result<StepCounts> count(const Request&);   ///< see count_steps()
+    Result<ProductUses> watch(const Request&);  ///< see product_uses()
     /// StepCounts::rasterized.
     Result<std::vector<std::optional<std::uint64_t>>> rasterize_steps(const Request&, const Declaration&);
     /// What one request took in one turn: its steps, and by stage what the host sorted, in milliseconds.
@@ -146,6 +148,8 @@ private:
     /// Fails once the device is lost, or whoever asked wants no answer any more.
     Result<void> check_going() const;
     void upload_scene();
+    /// Makes a buffer that a plan imports; the caller has the executor forget it.
+    Result<void> upload(ImportId, std::span<const std::byte>);
     /// Zeros for what frames leave to the next and none left yet.
     void make_remembered(const Plan&);
     /// Drops the work that frames left to the next (Remembered::work).

@@ -88,13 +88,11 @@ Result<Run> DeviceSession::run_from(const Request& request, Stage stage, const I
     const ImageSet& given = in_unit(pre_exposure(), outputs, scaled);
     const auto declared = failures_as_errors([&] { return declare_from(request, sources, stage, given); });
     if (!declared) return declared.error();
-    const auto uploaded = failures_as_errors([&]() -> Result<void> {
-        for (const auto& [id, image] : declared->given) {
-            const std::vector<glm::vec4> texels(image->texels.begin(), image->texels.end());
-            executor_->upload(id, std::as_bytes(std::span(texels)));
-        }
-        return {};
-    });
+    Result<void> uploaded;
+    for (const auto& [id, image] : declared->given) {
+        const std::vector<glm::vec4> texels(image->texels.begin(), image->texels.end());
+        if (uploaded) uploaded = upload(id, std::as_bytes(std::span(texels)));
+    }
     const auto execution = uploaded ? execute(*declared, {}, Work::found) : Result<Execution>(uploaded.error());
     for (const auto& [id, image] : declared->given) executor_->forget(id);
     if (!execution) return execution.error();
@@ -224,6 +222,13 @@ void DeviceSession::make_remembered(const Plan& plan) {
             executor_->upload(*buffer.import, std::vector<std::byte>(buffer.bytes));
             remembered_.emplace(buffer.import->key, *buffer.remembered);
         }
+}
+
+Result<void> DeviceSession::upload(ImportId id, std::span<const std::byte> bytes) {
+    return failures_as_errors([&]() -> Result<void> {
+        executor_->upload(id, bytes);
+        return {};
+    });
 }
 
 void DeviceSession::forget_work() {
