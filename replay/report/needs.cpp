@@ -37,6 +37,7 @@ std::string readers_of(const ProductUse& use, const std::vector<Scope>& scopes) 
     };
     for (const std::uint32_t scope : use.readers) add(stage_label(scopes[scope]));
     if (use.is_picture) add("the picture");
+    if (use.is_remembered) add("the next frame");
     return text;
 }
 

@@ -21,7 +21,8 @@ Result<ProductUses> DeviceSession::watch(const Request& request) {
     const auto execution = uploaded ? execute(marking, {}, work) : Result<Execution>(uploaded.error());
     for (const auto& [id, bytes] : watched->uploads()) executor_->forget(id);
     if (!execution) return execution.error();
-    found.products = watched->uses(execution->buffers.at(watched->marks().id));
+    const auto marks = execution->buffers.find(watched->marks().id);
+    found.products = watched->uses(marks == execution->buffers.end() ? std::span<const std::byte>() : marks->second);
     found.run = finished(marking, *execution);
     return found;
 }

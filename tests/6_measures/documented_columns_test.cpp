@@ -14,6 +14,7 @@
 #include "replay/isa/isa_columns.h"
 #include "replay/probe/probe_columns.h"
 #include "replay/report/hard_cases.h"
+#include "replay/report/needs.h"
 #include "replay/report/report_columns.h"
 #include "replay/spectra/spectra.h"
 #include "tests/support/accept.h"
@@ -102,6 +103,10 @@ std::string whole_document() {
         sheet_of(ReportComparison()));
     text += section("strata report --hard-cases", "A row for each case of each technique; in JSON `cases` of `rows`.",
                     sheet_of(HardCaseReport()));
+    text += section("strata report --needs: images and buffers",
+                    "A row for each, and for each step that the frame does without; in JSON `products` of `frames`.",
+                    sheet_of(Needs()));
+    text += section("strata report --needs: stages", "In JSON `stages` of `frames`; not in CSV.", sheet_of_stages(Needs()));
     text += section("strata bench", "A row for each ratio. JSON also has `steps`, `extent` and the `counters` of both variants.",
                     sheet_of(Bench()));
     text += section("strata bench device", "A row for each of the slowest steps; in JSON `steps`.", sheet_of(DeviceBench()));

@@ -338,6 +338,7 @@ std::vector<ProductUse> WatchedPlan::uses(std::span<const std::byte> bytes) cons
             if (scope == picture) use.is_picture = true;
             else use.readers.push_back(scope);
         }
+        use.is_remembered = !product.is_image && parts_->plan.buffers[product.id].remembered.has_value();
         use.made = made.count();
         use.read = read.count();
     }

@@ -25,6 +25,7 @@ struct ProductUse {
     std::uint64_t read = 0;                   ///< of those made
     std::vector<std::uint32_t> readers = {};  ///< scopes that read what is made, in their order
     bool is_picture = false;                  ///< read by the host when the frame is done
+    bool is_remembered = false;               ///< left to the next frame (Graph::remember)
     std::vector<std::size_t> writers = {};    ///< steps, by index in Plan::steps
 };
 
@@ -48,7 +49,7 @@ public:
     std::span<const Upload> uploads() const;
     /// The buffer that the plan keeps for uses().
     Buffer marks() const;
-    /// In the order in which they are first written. `marks` as the frame left them.
+    /// In the order in which they are first written. `marks` as the frame left them; nothing where no step of it marks.
     std::vector<ProductUse> uses(std::span<const std::byte> marks) const;
 
 private:
