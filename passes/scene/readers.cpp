@@ -13,15 +13,18 @@
 namespace strata {
 namespace {
 
+std::array<glm::dvec3, 8> corners_in_view(const Frame& frame, const DrawBounds& bounds, std::uint32_t index) {
+    const Draw& draw = frame.draws[index];
+    std::array<glm::dvec3, 8> corners = corners_of(bounds.boxes[draw.mesh]);
+    for (glm::dvec3& corner : corners) corner = in_view_space(frame.view, glm::dvec3(draw.to_world * glm::dvec4(corner, 1)));
+    return corners;
+}
+
 /// A sphere is a loose bound of a floor: where it does not decide, the draw's own box does.
 bool may_show(const Frame& frame, const Frustum& frustum, const DrawBounds& bounds, std::uint32_t index) {
     const BoundingSphere& sphere = bounds.spheres[index];
     if (!frustum.meets(sphere)) return false;
-    if (frustum.contains(sphere)) return true;
-    const Draw& draw = frame.draws[index];
-    std::array<glm::dvec3, 8> corners = corners_of(bounds.boxes[draw.mesh]);
-    for (glm::dvec3& corner : corners) corner = in_view_space(frame.view, glm::dvec3(draw.to_world * glm::dvec4(corner, 1)));
-    return frustum.meets(corners);
+    return frustum.contains(sphere) || frustum.meets(corners_in_view(frame, bounds, index));
 }
 
 /// Particles are squares that face the eye.
@@ -33,9 +36,6 @@ BoundingSphere sphere_around(const Frame& frame, const Emitter& emitter) {
     }
     return {(low + high) / 2., glm::length(high - low) / 2};
 }
-
-// Depth in a G-buffer is a half float in some layouts, wrong by 2.4e-4 of itself: lit places lie that far from their draw.
-constexpr double stored_depth_error = 1e-3;
 
 BoundingSphere widened(const BoundingSphere& sphere) {
     return {sphere.center, sphere.radius + stored_depth_error * (glm::length(sphere.center) + sphere.radius)};
@@ -49,7 +49,8 @@ bool meet(const BoundingSphere& a, const BoundingSphere& b) { return !(glm::dist
 
 Readers::Readers(const Frame& frame, const DrawLists& lists, const DrawBounds& bounds) : frame_(&frame), frustum_(frame.view) {
     for (const std::uint32_t draw : lists.opaque)
-        if (may_show(frame, frustum_, bounds, draw)) surfaces_.push_back(widened(bounds.spheres[draw]));
+        if (may_show(frame, frustum_, bounds, draw))
+            surfaces_.push_back({widened(bounds.spheres[draw]), corners_in_view(frame, bounds, draw)});
     for (const std::uint32_t index : lists.transparent) {
         if (index < frame.draws.size()) {
             if (may_show(frame, frustum_, bounds, index)) fragments_.push_back(widened(bounds.spheres[index]));
@@ -62,35 +63,30 @@ Readers::Readers(const Frame& frame, const DrawLists& lists, const DrawBounds& b
     }
 }
 
-namespace {
-
-/// At several samples a pixel's attributes are those of its center, which may lie outside of the triangle and, of one seen from
-/// the side, anywhere along the ray.
-bool has_exact_places(const Frame& frame) { return frame.view.samples == 1; }
-
-}  // namespace
+bool Readers::has_exact_places() const { return frame_->view.samples == 1; }
 
 bool Readers::has_surfaces_between(double nearest, double farthest) const {
-    if (!has_exact_places(*frame_)) return has_surfaces();
-    return std::ranges::any_of(surfaces_, [&](const BoundingSphere& sphere) {
+    if (!has_exact_places()) return has_surfaces();
+    return std::ranges::any_of(surfaces_, [&](const SurfaceBounds& surface) {
+        const BoundingSphere& sphere = surface.sphere;
         return !(sphere.center.z + sphere.radius < nearest || sphere.center.z - sphere.radius > farthest);
     });
 }
 
 bool Readers::has_surfaces_in(const BoundingSphere& sphere) const {
-    if (!has_exact_places(*frame_)) return has_surfaces();
+    if (!has_exact_places()) return has_surfaces();
     return frustum_.meets(sphere) &&
-           std::ranges::any_of(surfaces_, [&](const BoundingSphere& surface) { return meet(surface, sphere); });
+           std::ranges::any_of(surfaces_, [&](const SurfaceBounds& surface) { return meet(surface.sphere, sphere); });
 }
 
 bool Readers::has_any_in(const BoundingBox& world) const {
-    if (!has_exact_places(*frame_)) return has_surfaces() || !fragments_.empty();
+    if (!has_exact_places()) return has_surfaces() || !fragments_.empty();
     if (!frustum_.meets(view_corners_of(frame_->view, world))) return false;
     const auto meets_box = [&](const BoundingSphere& sphere) {
         const glm::dvec3 center = glm::transpose(frame_->view.to_view) * sphere.center + frame_->view.origin;
         return !(glm::distance(glm::clamp(center, world.low, world.high), center) > sphere.radius);
     };
-    return std::ranges::any_of(surfaces_, meets_box) || std::ranges::any_of(fragments_, meets_box);
+    return std::ranges::any_of(surfaces_, meets_box, &SurfaceBounds::sphere) || std::ranges::any_of(fragments_, meets_box);
 }
 
 }  // namespace strata

@@ -2,8 +2,10 @@
 // where each of its products is read; used_products() leaves out the others.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,14 @@
 
 namespace strata {
 
+/// Bounds of a draw in view space, from which what it shows may lie off by stored_depth_error.
+struct SurfaceBounds {
+    BoundingSphere sphere;
+    std::array<glm::dvec3, 8> corners;  ///< of its box
+};
+/// Depth in a G-buffer is a half float in some layouts, wrong by 2.4e-4 of itself: lit places lie that far from their draw.
+inline constexpr double stored_depth_error = 1e-3;
+
 /// Answers from bounds alone: never false where a sample of the picture reads, often true where none does, as behind a wall.
 class Readers {
 public:
@@ -24,6 +34,13 @@ public:
 
     /// Opaque and masked draws.
     bool has_surfaces() const { return !surfaces_.empty(); }
+    /// Those in view.
+    std::span<const SurfaceBounds> surfaces() const { return surfaces_; }
+    /// Whether surfaces lie where their bounds say. At several samples a pixel's attributes are those of its center, which may
+    /// lie outside of the triangle and, of one seen from the side, anywhere along the ray.
+    bool has_exact_places() const;
+    /// Of the view itself.
+    const Frustum& frustum() const { return frustum_; }
     /// Surfaces whose view depth may lie in the range.
     bool has_surfaces_between(double nearest, double farthest) const;
     /// Surfaces within the sphere, which is in view space.
@@ -34,7 +51,9 @@ public:
 private:
     const Frame* frame_;
     Frustum frustum_;
-    std::vector<BoundingSphere> surfaces_, fragments_;  ///< of draws and emitters that the view may show, in view space
+    // Of draws and emitters that the view may show.
+    std::vector<SurfaceBounds> surfaces_;
+    std::vector<BoundingSphere> fragments_;
 };
 
 /// A part of what a stage makes: a map, a grid.

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "passes/scene/read_part.h"
 #include "passes/scene/shadow_views.h"
 #include "passes/shadows/shadow_map_params.h"
 
@@ -11,10 +12,17 @@ namespace strata {
 class Graph;         // passes/graph/graph.h
 struct FrameImages;  // passes/frame_images.h
 
-/// The frame's views without those whose maps are unused and stay empty.
-std::vector<ShadowView> drawn_views(const FrameImages&, Allocation);
+/// A map that is drawn, and the part of it that is.
+struct DrawnMap {
+    std::uint32_t slot = 0;
+    ShadowView view;
+    MapPart part;
+};
+/// The frame's maps without those that nobody in view reads, which stay empty.
+std::vector<DrawnMap> drawn_maps(const FrameImages&, Allocation);
 
-/// Makes FrameImages::shadow_maps and draws every map that is used into its place; nothing where no light has a map.
+/// Makes FrameImages::shadow_maps and draws of every map that is used the part that is looked up, of the casters that it sees;
+/// nothing where no light has a map.
 void cast_maps(Graph&, FrameImages&, Allocation, CasterMask);
 
 }  // namespace strata

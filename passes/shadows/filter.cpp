@@ -70,8 +70,8 @@ ComputeStep filter_step(Graph& graph, const FrameImages& frame, const std::strin
     const auto shadowed = static_cast<std::uint32_t>(shadowed_lights(frame.facts->shadow_views(Allocation::own)).size());
     const Shape maps = graph.shape(frame.shadow_maps);
     std::uint32_t drawn = 0;
-    for (const ShadowView& view : drawn_views(frame, allocation_of(frame.shadow_filter)))
-        drawn += kilotexels(std::uint64_t{view.size} * view.size);
+    for (const DrawnMap& map : drawn_maps(frame, allocation_of(frame.shadow_filter)))
+        drawn += kilotexels(std::uint64_t{map.part.columns.count} * map.part.rows.count);
     const std::uint64_t texels = std::uint64_t(maps.layers) * maps.extent.width * maps.extent.height;
     visibility = graph.create("visibility", {.extent = frame.extent, .format = Format::r16f, .layers = shadowed * frame.samples});
     ComputeStep builder = graph.compute(shader);
@@ -129,7 +129,8 @@ std::vector<Counter> shadow_map_counters() {
         counter<&ShadowCounters::kilotexels_drawn>(
             {.name = "kilotexels_drawn", .help = "shadow map texels drawn, in units of 1024"}),
         counter<&ShadowCounters::kilotexels_allocated>(
-            {.name = "kilotexels_allocated", .help = "texels of the layers that hold the maps, in units of 1024; 4 KiB each"})};
+            {.name = "kilotexels_allocated", .help = "texels of the layers that hold the maps, in units of 1024; 4 KiB each"}),
+        counter<&ShadowCounters::casters_drawn>({.name = "casters_drawn", .help = "draws of casters into shadow maps"})};
 }
 
 std::vector<DebugView> shadow_map_views() {

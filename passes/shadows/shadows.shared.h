@@ -18,6 +18,7 @@ struct ShadowCounters {
     uint penumbra;
     uint kilotexels_drawn;
     uint kilotexels_allocated;
+    uint casters_drawn;
     // Of lookups that ask bounds of the map first, by what those say.
     uint lit;
     uint shadowed;

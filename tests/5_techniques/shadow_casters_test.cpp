@@ -37,7 +37,9 @@ Request maps_by(const Mode& mode, const char* allocation = "own") {
         .outputs = {"shadow_maps"}};
 }
 
-ReferenceImage maps_of(Session& session, const Request& request) {
+/// Whole maps of all casters, not only what lookups read.
+ReferenceImage maps_of(Session& session, Request request) {
+    request.variant.force.assign(all_features().begin(), all_features().end());
     return in_double(must(session.run(request)).images.at("shadow_maps"));
 }
 

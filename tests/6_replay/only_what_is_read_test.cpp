@@ -97,7 +97,12 @@ TEST_P(Products, WithoutAReaderAreLeftOutWithTheReason) {
     Request request = seen(from);
     request.once = true;  // a stage that is kept from another run declares nothing
     const auto has_name = testing::Field(&CulledStep::name, product);
-    const auto run = must(session_of_scenarios().run(request)), all = with_unused(request);
+    const auto run_anew = [&](const auto& made_by) {
+        session_of_scenarios().forget_memo();  // what frames before it left need not be made again
+        return made_by();
+    };
+    const auto run = run_anew([&] { return must(session_of_scenarios().run(request)); });
+    const auto all = run_anew([&] { return with_unused(request); });
     EXPECT_THAT(run.culled, Contains(testing::AllOf(has_name, testing::Field(&CulledStep::reason, why))));
     EXPECT_THAT(all.culled, Not(Contains(has_name)));
     if (!std::string_view(counter).empty()) {
@@ -118,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
                             "kilotexels_drawn"},
                     LeftOut{{"agents_hq", turned_away},
                             "shadow map 2 of 'lamp 42'",
-                            "no surface in view is in the light's range",
+                            "no surface in view is in what it sees of the light's range",
                             "kilotexels_drawn"}),
     [](const auto& named) { return named.param.from.scenario; });
 

@@ -46,7 +46,8 @@ const uint storage_half = 1u;   // half floats in units of a power of two W (sto
 
 // Vertices of a reflective shadow map.
 struct MapPush {
-    mat4 to_clip;  // of view space
+    mat4 to_clip;    // of view space
+    vec3 low, high;  // corners of a box that holds all from which a grid takes light, relative to the eye, along the world's axes
 };
 
 // Texels by which those of a map of parallel light lie beside borders of cells, along the two axes after the one that the map

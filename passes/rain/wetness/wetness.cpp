@@ -1,5 +1,8 @@
 // Wet surfaces: a rain map along the rain's direction, and the G-buffer's surfaces with water on them.
+#include <cmath>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -8,12 +11,14 @@
 #include "capture_format/frame/draw.h"
 #include "capture_format/frame/frame.h"
 #include "passes/choice_names.h"
+#include "passes/culling/draw_command.shared.h"
 #include "passes/edges/plain_pixels.h"
 #include "passes/frame_images.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/gbuffer/surfaces.h"
 #include "passes/rain/look.h"
 #include "passes/rain/wetness/weather.h"
+#include "passes/scene/map_casters.h"
 #include "passes/scene/material_uses.h"
 #include "passes/scene/readers.h"
 #include "passes/scene/scene_facts.h"
@@ -78,30 +83,63 @@ void keep_records(Graph& graph, const std::vector<RainMap>& maps, const WetnessP
     }
 }
 
+/// Looks from a rain map as from a shadow map: to u and v from 0 to 1, and depth.
+ShadowView as_shadow_map(const RainMap& map, std::uint32_t size) {
+    const glm::dvec4 one(0, 0, 0, 1);
+    return {.view_to_map = glm::transpose(glm::dmat4(map.u / double(size), map.v / double(size), map.depth, one)),
+            .size = size,
+            .read_from = -std::numeric_limits<double>::infinity(),
+            .range_end = std::numeric_limits<double>::infinity()};
+}
+
+/// Taps lie within a disc around the receiver, which is moved out by no more than that.
+std::optional<MapPart> part_of(const FrameImages& frame, const ShadowView& view, const WetnessParams& params) {
+    if (frame.makes_unused) return MapPart{{0, view.size}, {0, view.size}};
+    return read_part(frame.facts->readers(), view, {}, 2 * static_cast<std::uint32_t>(std::ceil(params.radius)) + 4);
+}
+
+/// Commands of a run of casters, without instances for those that the part of the map does not see.
+DrawList seen_casters(Graph& graph, const DrawList& run, const ShadowView& view, const MapPart& part) {
+    DrawList seen = run;
+    seen.commands = graph.create("commands of casters of rain", run.count * sizeof(DrawCommand));
+    seen.first = 0;
+    graph.compute("rain/wetness/casters.comp")
+        .loads("AllCommands", run.commands)
+        .stores("Commands", seen.commands)
+        .push(casters_push(view, part, run))
+        .over({run.count});
+    return seen;
+}
+
+void draw_map(Graph& graph, const FrameImages& frame, const WetnessParams& params, const RainMap& map, Image& layers,
+              Part layer) {
+    const std::uint32_t size = smallest_map << params.map_size;
+    const ShadowView view = as_shadow_map(map, size);
+    const auto part = part_of(frame, view, params);
+    if (!part) return;
+    for (const DrawList& run : caster_runs(frame, params.casters)) {
+        if (run.count == 0) continue;
+        DrawStep cast = graph.draw("rain/wetness/cast", frame.makes_unused ? run : seen_casters(graph, run, view, *part));
+        fix_materials(cast, frame, Surfaces::opaque)
+            .writes_depth(layers, layer)
+            .within({size, size})
+            .in_columns(part->columns)
+            .in_rows(part->rows)
+            .push(RainMapPush{.view_to_map = glm::mat4(to_clip(view))});
+    }
+}
+
 void draw_maps(Graph& graph, const FrameImages& frame, const WetnessParams& params, const std::vector<RainMap>& maps) {
     const std::uint32_t size = smallest_map << params.map_size;
     const auto count = static_cast<std::uint32_t>(maps.size());
     Image layers = graph.create(std::string(map_name), {.extent = {size, size}, .format = Format::d32f, .layers = count});
     graph.clear(layers, {});
-    const std::vector<DrawList> runs = caster_runs(frame, params.casters);
     const std::vector<std::uint32_t> used = used_products(graph, frame, count, [&](std::uint32_t i) {
         return Product{.name = fmt::format("rain map {}", i),
                        .is_used = frame.facts->readers().has_surfaces(),
                        .unused_because = "no surface is in view"};
     });
-    for (const std::uint32_t i : used) {
-        const RainMap& at = maps[i];
-        const glm::dvec4 one(0, 0, 0, 1);
-        const glm::dmat4 to_map = glm::transpose(glm::dmat4(at.u * (2. / size) - one, at.v * (2. / size) - one, at.depth, one));
-        for (const DrawList& run : runs) {
-            if (run.count == 0) continue;
-            DrawStep cast = graph.draw("rain/wetness/cast", run);
-            fix_materials(cast, frame, Surfaces::opaque)
-                .writes_depth(layers, count > 1 ? Part{.layer = i} : Part{})
-                .within({size, size})
-                .push(RainMapPush{.view_to_map = glm::mat4(to_map)});
-        }
-    }
+    for (const std::uint32_t i : used) draw_map(graph, frame, params, maps[i], layers, count > 1 ? Part{.layer = i} : Part{});
     keep_records(graph, maps, params);
 }
 

@@ -46,7 +46,9 @@ ComputeStep asking(ComputeStep builder, const FrameImages& frame, const MinMaxPa
 void filter_maps(Graph& graph, FrameImages& frame, const Settings& settings) {
     if (!frame.shadow_maps) return;
     const auto params = settings.as<MinMaxParams>();
-    const std::vector<ShadowView> drawn = drawn_views(frame, static_cast<Allocation>(frame.shadow_filter.allocation));
+    std::vector<ShadowView> drawn;
+    std::ranges::transform(drawn_maps(frame, static_cast<Allocation>(frame.shadow_filter.allocation)), std::back_inserter(drawn),
+                           &DrawnMap::view);
     frame.shadow_bounds = add_shadow_bounds(graph, frame.shadow_maps, drawn, params.bounds());
     asking(filter_step(graph, frame, "shadows/min_max/filter.comp", frame.visibility), frame, params)
         .fixes("verifies", params.verify);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -26,6 +27,21 @@ struct Injected {
     std::uint32_t texels() const { return maps.size * maps.size * static_cast<std::uint32_t>(maps.views.size()); }
 };
 
+/// Has the maps hold what one of the grids may take; `bias`: cells before a surface at which it takes light.
+LightMaps taken_by(LightMaps maps, std::span<DeviceGrid* const> grids, float bias) {
+    for (MapPush& view : maps.views) {
+        view.low = glm::vec3(std::numeric_limits<float>::max());
+        view.high = -view.low;
+        for (const DeviceGrid* grid : grids) {
+            const GridPlace& place = grid->lit_place;
+            const glm::vec3 around((bias + .01f) * place.cell + 1e-3f);  // with what moves light across borders, and rounding
+            view.low = glm::min(view.low, place.origin - around);
+            view.high = glm::max(view.high, place.origin + glm::vec3(place.cells) * place.cell + around);
+        }
+    }
+    return maps;
+}
+
 std::vector<Injected> injected_lights(const FrameImages& frame, const LpvParams& params, std::vector<DeviceGrid>& grids) {
     if (grids.empty()) return {};
     const std::vector<LightGrid> all = light_grids(*frame.recorded, cell_scale(params));  // also those that nobody reads
@@ -40,12 +56,16 @@ std::vector<Injected> injected_lights(const FrameImages& frame, const LpvParams&
         if (reached.empty()) continue;
         if (!has_range(lights[i].type)) {
             for (DeviceGrid* const grid : reached)
-                injected.push_back({i, maps_over(*frame.facts, eye, lights[i], grid->grid, texels), {grid}});
+                injected.push_back(
+                    {i,
+                     taken_by(maps_over(*frame.facts, eye, lights[i], grid->grid, texels), std::span(&grid, 1), params.injection),
+                     {grid}});
             continue;
         }
         std::vector<const LightGrid*> lit;
         std::ranges::transform(reached, std::back_inserter(lit), [](const DeviceGrid* grid) { return &grid->grid; });
-        LightMaps maps = maps_around(eye, lights[i], lit, texels_a_side(lights[i], all, texels));
+        LightMaps maps =
+            taken_by(maps_around(eye, lights[i], lit, texels_a_side(lights[i], all, texels)), reached, params.injection);
         if (!maps.views.empty()) injected.push_back({i, std::move(maps), std::move(reached)});
     }
     return injected;
@@ -92,14 +112,14 @@ DrawList casters_of_maps(Graph& graph, const FrameImages& frame, const Injected&
             .stores("Commands", casters.commands)
             .fixes("is_gated", grid.gates ? 1u : 0u)
             .takes_first(grid.eye.records)
-            .push(MapCastersPush{.to_clip = maps.views[view].to_clip,
-                                 .low = clip(columns.first, rows.first),
-                                 .high = clip(columns.first + columns.count, rows.first + rows.count),
-                                 .light = maps.light,
-                                 .range = maps.range,
-                                 .first = frame.casters.first,
-                                 .count = casters.count,
-                                 .to = view * casters.count,
+            .push(LitCastersPush{.casters = {.to_clip = maps.views[view].to_clip,
+                                             .low = clip(columns.first, rows.first),
+                                             .high = clip(columns.first + columns.count, rows.first + rows.count),
+                                             .light = maps.light,
+                                             .range = maps.range,
+                                             .first = frame.casters.first,
+                                             .count = casters.count,
+                                             .to = view * casters.count},
                                  .grids = bits})
             .over({casters.count});
     }

@@ -11,6 +11,7 @@
 #include "passes/indirect/lpv/light_eye.h"
 #include "passes/indirect/lpv/lpv.shared.h"
 #include "passes/scene/light_grids.h"
+#include "passes/scene/read_part.h"
 
 namespace strata {
 
@@ -22,11 +23,6 @@ struct Light;        // capture_format/frame/light.h
 }  // namespace strata
 
 namespace strata::indirect {
-
-struct MapPart {
-    PixelColumns columns;
-    Rows rows;
-};
 
 /// Of one light: where each map looks, and what makes watts of a texel's light.
 struct LightMaps {

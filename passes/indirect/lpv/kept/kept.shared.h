@@ -2,6 +2,7 @@
 #ifndef PASSES_INDIRECT_LPV_KEPT_SHARED_H
 #define PASSES_INDIRECT_LPV_KEPT_SHARED_H
 #include "passes/indirect/lpv/lpv.shared.h"
+#include "passes/shaders/map_casters.shared.h"
 #ifdef __cplusplus
 namespace strata::indirect {
 inline uint starting_bit(uint grid);
@@ -73,15 +74,10 @@ struct MapGatesPush {
     MapGate of[map_gates_per_push];
 };
 
-// Casters of one of a light's maps.
-struct MapCastersPush {
-    mat4 to_clip;
-    vec2 low, high;  // of the part of the map that is drawn, x and y from -1 to 1
-    vec3 light;      // its place, and where it ends, meters; range 0: parallel light
-    float range;
-    uint first, count;  // of the casters among all commands
-    uint to;            // the first of the map's commands
-    uint grids;         // starting bits of those that are lit by what the casters reflect
+// Casters of one of a light's maps, where grids are lit anew by what they reflect.
+struct LitCastersPush {
+    MapCastersPush casters;
+    uint grids;  // starting bits
 };
 
 #ifdef __cplusplus

@@ -1,0 +1,18 @@
+// The casters' draw commands for a rain map: without instances where the part of the map that is drawn does not see them.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/shaders/map_casters.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(push_constant, scalar) uniform Push { MapCastersPush push; };
+layout(set = 0, binding = 0, scalar) readonly buffer AllCommands { DrawCommand all_commands[]; };
+layout(set = 0, binding = 1, scalar) writeonly buffer Commands { DrawCommand commands[]; };
+
+void main() {
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= push.count) return;
+    DrawCommand command = all_commands[push.first + i];
+    if (!is_seen(push, draws[command.first_instance])) command.instance_count = 0u;
+    commands[push.to + i] = command;
+}
