@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Times the peer and techniques of strata on the same spheres in turns, on one thread of the driver and on all, and prints a table.
+"""Times the peer and techniques of strata on the same spheres in turns, on one thread of the driver and on all; prints a table.
 
-Milliseconds are the medians of runs; those of strata are of the steps of its transparency stage alone. Each ratio is the median of
-the ratios within a run, so that other work on the machine weighs on both sides. Before that, the peer's picture is compared with
-sorted_lists to 1e-3 of radiance: pixels where rounding decides which of two surfaces is nearer, at silhouettes, may differ.
+Milliseconds are medians of runs; those of strata are of the steps of its transparency stage alone. Each ratio is the median of
+the ratios within a run, so that other work on the machine weighs on both sides. First the peer's picture is compared with
+sorted_lists to 1e-3 of radiance: .01 % of the pixels may differ, because rounding decides at silhouettes which surface is nearer.
 """
 import argparse
 import json
@@ -53,7 +53,8 @@ def compare_pictures(args, folder):
 
 
 def print_table(times, threads):
-    print(f"{'threads of the driver: ' + (str(threads) if threads else 'all'):34}{'ms':>10}{'lowest':>10}{'highest':>10}{'of peer list':>14}")
+    title = f"threads of the driver: {threads or 'all'}"
+    print(f"{title:34}{'ms':>10}{'lowest':>10}{'highest':>10}{'of peer list':>14}")
     for label, values in times.items():
         ratio = statistics.median(own / peer for own, peer in zip(values, times["peer list"]))
         print(f"{label:34}{statistics.median(values):10.1f}{min(values):10.1f}{max(values):10.1f}{ratio:14.2f}")
@@ -66,9 +67,9 @@ def main():
     parser.add_argument("--strata", default="build/strata")
     parser.add_argument("--size", default="480x360", help="extent of the frame as WIDTHxHEIGHT")
     parser.add_argument("--repeats", type=int, default=5, help="runs of each program")
-    parser.add_argument("--frames", type=int, default=3, help="frames of each run after one to warm up; a run's time is their median")
+    parser.add_argument("--frames", type=int, default=3, help="frames of each run, after one to warm up")
     parser.add_argument("--only", nargs="*", default=list(OURS), choices=list(OURS), help="techniques to run; default all")
-    parser.add_argument("--threads", nargs="*", type=int, default=[1, 0], help="threads of llvmpipe, 0 for one per core; default 1 0")
+    parser.add_argument("--threads", nargs="*", type=int, default=[1, 0], help="threads of llvmpipe; 0: one per core")
     args = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         args.capture = os.path.join(folder, "spheres.strata")

@@ -1,13 +1,16 @@
-// A small renderer that does one thing: the triangles of a capture in linked lists of pixels, sorted and composited, or blended
-// as they come. What `strata replay` takes for the same picture is compared with it (compare.py).
+// A small renderer to compare times with: draws the triangles of a capture into linked lists of pixels, which it sorts and
+// composites, or blends them in the order of submission. compare.py runs it in turns with `strata replay`.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <OpenEXR/ImfChannelList.h>
@@ -251,17 +254,33 @@ void Renderer::write(const std::string& path) const {
     file.writePixels(int(extent_.height));
 }
 
+/// The value of that name. Throws where there is none.
+template <typename Value, std::size_t count>
+Value named(const std::array<std::pair<std::string_view, Value>, count>& values, std::string_view name) {
+    for (const auto& [known, value] : values)
+        if (known == name) return value;
+    throw std::invalid_argument("'" + std::string(name) + "' is not a value of this option");
+}
+
+constexpr std::array modes{std::pair<std::string_view, Mode>("list", Mode::list),
+                           std::pair<std::string_view, Mode>("blend", Mode::blend)};
+constexpr std::array sharings{std::pair<std::string_view, Sharing>("all", Sharing::all),
+                              std::pair<std::string_view, Sharing>("all_but_first", Sharing::all_but_first),
+                              std::pair<std::string_view, Sharing>("none", Sharing::none)};
+
 std::optional<Options> parse(std::span<const std::string_view> words) {
     Options options;
     for (std::size_t i = 0; i < words.size(); ++i) {
-        const std::string_view word = words[i], value = i + 1 < words.size() ? words[i + 1] : "";
-        if (word.starts_with("--")) ++i;
-        if (!word.starts_with("--")) options.capture = word;
-        else if (word == "--output") options.picture = value;
-        else if (word == "--frames") options.frames = std::max(1, std::atoi(std::string(value).c_str()));
-        else if (word == "--mode") options.mode = value == "blend" ? Mode::blend : Mode::list;
-        else if (word == "--sharing")
-            options.sharing = value == "none" ? Sharing::none : value == "all_but_first" ? Sharing::all_but_first : Sharing::all;
+        const std::string_view word = words[i];
+        if (!word.starts_with("--")) {
+            options.capture = word;
+            continue;
+        }
+        if (++i == words.size()) return std::nullopt;
+        if (word == "--output") options.picture = words[i];
+        else if (word == "--frames") options.frames = std::max(1, std::atoi(std::string(words[i]).c_str()));
+        else if (word == "--mode") options.mode = named(modes, words[i]);
+        else if (word == "--sharing") options.sharing = named(sharings, words[i]);
         else return std::nullopt;
     }
     return options.capture.empty() ? std::nullopt : std::optional(options);
@@ -301,14 +320,13 @@ int run(const Options& options) {
 
 int main(int count, char** words) {
     const std::vector<std::string_view> given(words + 1, words + count);
-    const auto options = strata::peer::parse(given);
-    if (!options) {
+    try {
+        if (const auto options = strata::peer::parse(given)) return strata::peer::run(*options);
         std::fprintf(stderr,
                      "usage: peer CAPTURE [--mode list|blend] [--frames N] [--output EXR] [--sharing all|all_but_first|none]\n");
         return 2;
-    }
-    try {
-        return strata::peer::run(*options);
+    } catch (const std::invalid_argument& error) {
+        return std::fprintf(stderr, "peer: %s\n", error.what()), 2;
     } catch (const std::exception& error) {
         return std::fprintf(stderr, "peer: %s\n", error.what()), 5;
     }

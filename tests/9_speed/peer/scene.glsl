@@ -1,4 +1,4 @@
-// Push constants of every shader of the peer, as in spheres.h, and what its fragments look like.
+// Push constants of every shader of the peer, as in spheres.h, and the nodes of its lists.
 layout(push_constant) uniform Scene {
     mat4 to_clip;
     vec3 sky;

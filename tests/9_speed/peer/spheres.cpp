@@ -20,24 +20,21 @@ bool is_plain(const Frame& frame) {
            frame.view.samples == 1;
 }
 
-/// See Sharing. Appends the corners of the mesh's triangles as indices of vertices, which begin at `base`.
+/// Appends the vertices of a mesh as its triangles share them, and the triangles.
 void add_corners(const Mesh& mesh, Sharing sharing, const std::vector<Vertex>& own, Spheres& spheres) {
-    std::vector<std::uint32_t> vertex_of(own.size(), none);
-    const auto add = [&](std::uint32_t corner) {
+    std::vector<std::uint32_t> corners(mesh.indices.size(), none), vertex_of(own.size(), none);
+    const auto add = [&](std::size_t corner) {
         spheres.vertices.push_back(own[mesh.indices[corner]]);
         return static_cast<std::uint32_t>(spheres.vertices.size() - 1);
     };
-    std::vector<std::uint32_t> first_corners;
-    for (std::uint32_t i = 0; i < mesh.indices.size() && sharing == Sharing::all_but_first; i += 3) {
-        first_corners.push_back(add(i));
-        vertex_of[mesh.indices[i]] = first_corners.back();
-    }
-    for (std::uint32_t i = 0; i < mesh.indices.size(); ++i) {
+    for (std::size_t i = 0; i < corners.size() && sharing == Sharing::all_but_first; i += 3)
+        corners[i] = vertex_of[mesh.indices[i]] = add(i);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
         std::uint32_t& shared = vertex_of[mesh.indices[i]];
-        const bool is_own = sharing == Sharing::none || (sharing == Sharing::all_but_first && i % 3 == 0);
         if (shared == none || sharing == Sharing::none) shared = add(i);
-        spheres.indices.push_back(is_own && !first_corners.empty() ? first_corners[i / 3] : shared);
+        if (corners[i] == none) corners[i] = shared;
     }
+    spheres.indices.insert(spheres.indices.end(), corners.begin(), corners.end());
 }
 
 void add_draw(const Frame& frame, const Draw& draw, Sharing sharing, Spheres& spheres) {
@@ -61,7 +58,7 @@ Result<Spheres> read_spheres(const std::filesystem::path& path, Sharing sharing)
     if (!frame) return frame.error();
     if (!is_plain(*frame))
         return fail(Fault::usage, "peer.not_plain",
-                    "{path} has textures, lights, particles, fog or samples, which the peer does not draw", path.string());
+                    "{path} is not of two-sided lambert surfaces alone; record spheres_1024 for the peer", path.string());
     Spheres spheres;
     for (const Draw& draw : frame->draws) add_draw(*frame, draw, sharing, spheres);
     spheres.scene = {.to_clip = frame->view.projection,

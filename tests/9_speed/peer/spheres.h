@@ -1,4 +1,4 @@
-// The triangles of a capture as one mesh in view space, and what shades them: what the peer draws.
+// The triangles of a capture as one mesh in view space, and the light on them, for the peer to draw.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct Vertex {
 struct Scene {
     glm::mat4 to_clip;
     glm::vec3 sky;
-    std::uint32_t nodes;  ///< that there are
+    std::uint32_t nodes;  ///< number of nodes in the buffer
     glm::vec3 ground;
     std::uint32_t padding;
     glm::vec3 background;
@@ -38,7 +38,8 @@ struct Spheres {
 /// Vertices that the triangles of a mesh share: all of them, all but the first corner of every triangle, or none.
 enum class Sharing { all, all_but_first, none };
 
-/// The first frame of a capture. Fails where it has what the peer does not draw: textures, lights, fog.
+/// The first frame of a capture. Fails where the frame has textures, lights, particles, fog or several samples: the peer draws
+/// none.
 Result<Spheres> read_spheres(const std::filesystem::path&, Sharing);
 
 }  // namespace strata::peer
