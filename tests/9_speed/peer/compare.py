@@ -19,7 +19,7 @@ OURS = {
     "sorted_lists": [],
     "alpha_blend": [],
     "a_buffer": [],
-    "a_buffer of 32 layers": ["--set", "layers=32"],
+    "a_buffer of 16 layers": ["--set", "layers=16"],
     "depth_peeling of 8 passes": [],
 }
 
