@@ -17,6 +17,7 @@ enum class Capability : std::uint32_t {
     dual_source_blending,  ///< a fragment shader may give the blend a second color, and so a transmittance per channel
     counted_draws,         ///< the device may read how many commands of a list it draws
     sample_varyings,       ///< `sample` varyings are divided by the w of the sample, not of the pixel's center
+    helper_invocations,    ///< fragment shaders may read gl_HelperInvocation
     count_
 };
 std::string_view name(Capability);

@@ -68,6 +68,10 @@ float sample_near(const FrameImages& images) {
     return are_at_sample ? 0.f : images.recorded->view.near;
 }
 
+std::uint32_t tells_helpers(const FrameImages& images) {
+    return has(images.capabilities, Capability::helper_invocations) ? 1u : 0u;
+}
+
 Image spread(Graph& graph, const Image& multisampled, std::string_view name) {
     const Shape shape = graph.shape(multisampled);
     assert(shape.layers == 1 && shape.mips == 1);

@@ -103,6 +103,8 @@ const FrameImageRow* find_frame_image(std::string_view name);
 
 /// Fixed as `sample_near` by shaders that read `sample` varyings: the near plane where these must be taken to the sample, else 0.
 float sample_near(const FrameImages&);
+/// Fixed as `tells_helpers` by shaders that include passes/shaders/helper_invocations.glsl.
+std::uint32_t tells_helpers(const FrameImages&);
 
 /// The samples of a multisampled image as layers: a copy in general, the image itself where it has one sample and is no
 /// depth. Depth always becomes an r32f copy.

@@ -71,8 +71,9 @@ Counter counter(Counter row) {
 }
 
 /// The row of what shaders count with passes/shaders/finished.glsl.
-inline constexpr Counter unfinished_row = {
-    .name = "unfinished", .help = "threads whose loops the driver ended before they were done", .is_fatal = true};
+inline constexpr Counter unfinished_row = {.name = "unfinished",
+                                           .help = "threads whose loops ended before they were done, by the driver or by a bound",
+                                           .is_fatal = true};
 
 /// The name of a choice or the number: what Settings::set() reads back as this value.
 std::string text_of(const Param&, double value);

@@ -156,8 +156,10 @@ Capabilities capabilities_of(const vk::raii::PhysicalDevice& device) {
         if (row.feature.of(features) && row.other.of(features)) found.push_back(row.capability);
     if (has_interlock(device)) found.push_back(Capability::fragment_interlock);
     if (!ends_long_loops(device)) found.push_back(Capability::long_loops);
-    // lavapipe 22.3 and 25.0 lack it. Of devices that are no GPU none is asked for more than bits that stay as they are.
-    if (device.getProperties().deviceType != vk::PhysicalDeviceType::eCpu) found.push_back(Capability::sample_varyings);
+    // lavapipe 22.3 lacks both, 25.0 the first. Of devices that are no GPU none is asked for more than bits that stay as they
+    // are.
+    if (device.getProperties().deviceType != vk::PhysicalDeviceType::eCpu)
+        found.insert(found.end(), {Capability::sample_varyings, Capability::helper_invocations});
     return found;
 }
 

@@ -151,6 +151,24 @@ TEST(ReloadedShaders, ThatCppReadsAsWellNeedABuild) {
     EXPECT_THAT(session->reload_shaders(folder.path()), FailsWith("glsl.shared_header_differs", Field("file", HasSubstr(name))));
 }
 
+TEST(ReloadedShaders, WhoseSwapsAreNotDoneFailTheReplay) {
+    struct Swapping {
+        std::string technique, setting, shader, bound;
+    };
+    for (const Swapping& swapping :
+         {Swapping{"transparency/a_buffer", "layers=9", "passes/transparency/a_buffer/store.frag", "4u * most_counted + 1u"},
+          Swapping{"transparency/voxel", "splat=saturating", "passes/transparency/voxel/volume/splat.frag", "1u << 17u"}}) {
+        const ShaderFolder folder;
+        const auto session = scenario_session("three_panes");
+        const Request request{.choices = chosen({swapping.technique}, {swapping.setting})};
+        must(session->run(request));
+        folder.change(swapping.shader, "most_swaps = " + swapping.bound, "most_swaps = 0u");
+        must(session->reload_shaders(folder.path()));
+        EXPECT_THAT(session->run(request), FailsWith("technique.fatal_counter", Field("counter", "unfinished")))
+            << swapping.technique;
+    }
+}
+
 TEST(ReloadedShaders, OfAFolderWithoutShadersAreASentence) {
     const ShaderFolder folder;
     const auto session = scenario_session("three_panes");

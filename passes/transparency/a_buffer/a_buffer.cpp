@@ -77,6 +77,7 @@ void declare(Graph& graph, FrameImages& images, const Settings& settings) {
         .stores("transmittances", layers.transmittances)
         .stores("depths", layers.depths)
         .updates("Counts", layers.counts)
+        .fixes("tells_helpers", tells_helpers(images))
         .push(push);
 
     const Image sum = by_sample(graph, merged.sum);
@@ -122,7 +123,8 @@ Technique a_buffer() {
         .counters = {counter<&ABufferCounters::fragments>({.name = "fragments", .help = "visible transparent fragments shaded"}),
                      counter<&ABufferCounters::overflow>(
                          {.name = "overflow", .help = "fragments beyond the stored layers, merged into one"}),
-                     counter<&ABufferCounters::atomics>({.name = "atomics", .help = "compare-and-swaps of byte counts"})},
+                     counter<&ABufferCounters::atomics>({.name = "atomics", .help = "compare-and-swaps of byte counts"}),
+                     counter<&ABufferCounters::unfinished>(unfinished_row)},
         .counter_bytes = sizeof(ABufferCounters),
         .views = {{.name = "overflow",
                    .help = "visible fragments merged per pixel, in the sample that has the most",

@@ -20,6 +20,7 @@ struct ABufferCounters {
     uint fragments;
     uint overflow;
     uint atomics;
+    uint unfinished;
 };
 
 #ifdef __cplusplus

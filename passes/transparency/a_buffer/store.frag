@@ -1,6 +1,7 @@
 // The first K fragments of a sample are stored in their order of arrival; what comes later is merged into one layer.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "passes/shaders/helper_invocations.glsl"
 #include "passes/transparency/a_buffer/a_buffer.shared.h"
 #include "passes/transparency/a_buffer/counts.glsl"
 #include "passes/transparency/a_buffer/rounding.glsl"
@@ -17,16 +18,20 @@ layout(set = 0, binding = 3) uniform writeonly image2DArray depths;
 layout(set = 0, binding = 4, scalar) buffer Counts { uint counts[]; };
 layout(set = 0, binding = 5, scalar) buffer Counters { ABufferCounters counters; };
 
-// How many came before; 255 are as good as more. Helper invocations, which cover nothing, must not wait for their swap.
+// A swap fails where another one has raised one of the word's four counts, which end at most_counted.
+const uint most_swaps = 4u * most_counted + 1u;
+
+// How many came before; 255 are as good as more.
 uint arrival(ivec3 texel) {
+    if (is_helper()) return most_counted;
     const CountPlace place = count_place(texel);
     uint seen = counts[place.word], expected = ~seen, swaps = 0u;
-    while (seen != expected && count_in(seen, place) < most_counted && gl_SampleMaskIn[0] != 0) {
+    for (; swaps < most_swaps && seen != expected && count_in(seen, place) < most_counted; ++swaps) {
         expected = seen;
         seen = atomicCompSwap(counts[place.word], expected, expected + (1u << place.shift));
-        ++swaps;
     }
     atomicAdd(counters.atomics, swaps);
+    if (seen != expected && count_in(seen, place) < most_counted) atomicAdd(counters.unfinished, 1u);
     return count_in(seen, place);
 }
 

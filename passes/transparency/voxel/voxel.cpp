@@ -252,6 +252,7 @@ std::vector<Param> params() {
 
 std::vector<Counter> counters() {
     std::vector<Counter> rows = function_counters();
+    rows.push_back(counter<&ListCounters::unfinished>(unfinished_row));  // of swaps
     const std::vector<Counter> own = {
         counter<&VoxelCounters::columns>({.name = "columns", .help = "columns of the volume, summed over channels"}),
         counter<&VoxelCounters::atomics>({.name = "atomics", .help = "atomic additions to the volume's words"}),

@@ -2,6 +2,7 @@
 // There is no atomic multiplication, hence logarithms; integers add up to the same in any order.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "passes/shaders/helper_invocations.glsl"
 #include "passes/transparency/fragment.glsl"
 #include "passes/transparency/voxel/voxel.shared.h"
 
@@ -16,15 +17,18 @@ layout(set = 0, binding = 20, scalar) buffer Counters { VoxelCounters counters; 
 
 uint saturated(uint word, uint shift, uint code) { return word + (min(code, field_mask - field(word, shift)) << shift); }
 
-// Helper invocations, whose swap never happens, must not wait for it.
+// A swap fails where another one has raised a field of the word: two of 16 bits can be raised so often.
+const uint most_swaps = 1u << 17u;
+
 void add_saturating(ivec3 at, uint slice, uvec2 codes, bool both) {
     uint seen = imageLoad(voxels, at).r, expected = ~seen;
-    while (seen != expected && gl_SampleMaskIn[0] != 0) {
+    for (uint swaps = 0u; swaps < most_swaps && seen != expected; ++swaps) {
         expected = seen;
         uint sum = saturated(seen, shift_of(slice), codes.x);
         if (both) sum = saturated(sum, shift_of(slice + 1u), codes.y);
         seen = imageAtomicCompSwap(voxels, at, expected, sum);
     }
+    if (seen != expected) atomicAdd(counters.function.lists.unfinished, 1u);
 }
 
 void note_overflow(ivec2 column, uint before, uint slice, uint code) {
@@ -36,7 +40,7 @@ void add_to_word(ivec2 column, uint slice, uvec2 codes, bool both) {
     const ivec3 at = place_of(column, slice);
     atomicAdd(counters.atomics, 1u);
     if (splat == splat_saturating) {
-        add_saturating(at, slice, codes, both);
+        if (!is_helper()) add_saturating(at, slice, codes, both);
     } else {
         const uint farther = both ? codes.y << shift_of(slice + 1u) : 0u;
         const uint before = imageAtomicAdd(voxels, at, (codes.x << shift_of(slice)) + farther);
@@ -62,10 +66,11 @@ uint saturated_color(uint word, uvec3 codes) { return word + color_word(min(code
 
 void add_color_saturating(ivec3 at, uvec3 codes) {
     uint seen = imageLoad(voxels, at).r, expected = ~seen;
-    while (seen != expected && gl_SampleMaskIn[0] != 0) {
+    for (uint swaps = 0u; swaps < most_swaps && seen != expected; ++swaps) {
         expected = seen;
         seen = imageAtomicCompSwap(voxels, at, expected, saturated_color(expected, codes));
     }
+    if (seen != expected) atomicAdd(counters.function.lists.unfinished, 1u);
 }
 
 // All three channels at once.
@@ -73,7 +78,7 @@ void add_color_to_word(ivec2 column, uint slice, uvec3 codes) {
     const ivec3 at = ivec3(column, slice);
     atomicAdd(counters.atomics, 1u);
     if (splat == splat_saturating) {
-        add_color_saturating(at, codes);
+        if (!is_helper()) add_color_saturating(at, codes);
         return;
     }
     const uvec3 sums = color_fields(imageAtomicAdd(voxels, at, color_word(codes))) + codes;

@@ -209,7 +209,8 @@ void splat_codes(Graph& graph, const FrameImages& images, const VoxelParams& par
         .updates("voxels", volume.voxels)
         .fixes("thickness", volume.thickness)
         .fixes("splatting", params.splatting)
-        .fixes("rounding", params.rounding);
+        .fixes("rounding", params.rounding)
+        .fixes("tells_helpers", tells_helpers(images));
 }
 
 }  // namespace
