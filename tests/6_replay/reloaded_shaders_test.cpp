@@ -151,6 +151,17 @@ TEST(ReloadedShaders, ThatCppReadsAsWellNeedABuild) {
     EXPECT_THAT(session->reload_shaders(folder.path()), FailsWith("glsl.shared_header_differs", Field("file", HasSubstr(name))));
 }
 
+// As a GPU could do it, whose two vertex shaders need not put a vertex at the same place.
+TEST(ReloadedShaders, ThatStoreFragmentsWhichWereNotCountedFailTheReplay) {
+    const ShaderFolder folder;
+    const auto session = scenario_session("glass_and_smoke");
+    const Request request{.choices = chosen({"transparency/sorted_lists"})};
+    folder.change("passes/transparency/lists/count.frag", "if (!in_band(pixel.y))",
+                  "if (!in_band(pixel.y) || pixel.x % 2u == 0u)");
+    must(session->reload_shaders(folder.path()));
+    EXPECT_THAT(session->run(request), FailsWith("technique.fatal_counter", Field("counter", "miscounted")));
+}
+
 TEST(ReloadedShaders, WhoseSwapsAreNotDoneFailTheReplay) {
     struct Swapping {
         std::string technique, setting, shader, bound;

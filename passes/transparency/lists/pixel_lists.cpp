@@ -50,6 +50,7 @@ void fill(Graph& graph, const FrameImages& images, PixelLists& lists, const Band
     draw_fragments(graph, "transparency/lists/fill", images.numbered, images)
         .in_rows(rows_of(band))
         .updates("Ends", lists.ends)
+        .loads("Starts", lists.starts)
         .stores("Keys", lists.keys)
         .stores("Submissions", lists.submissions)
         .stores("Fragments", lists.fragments)
@@ -161,6 +162,9 @@ std::vector<Counter> list_counters() {
         counter<&ListCounters::deepest>({.name = "deepest", .help = "length of the longest list, in fragments"}),
         counter<&ListCounters::dropped>(
             {.name = "dropped", .help = "fragments lost because the pool was full; expected: 0", .is_fatal = true}),
+        counter<&ListCounters::miscounted>({.name = "miscounted",
+                                            .help = "fragments lost because the draw that counts did not cover them; expected: 0",
+                                            .is_fatal = true}),
         counter<&ListCounters::unfinished>(unfinished_row),
         counter<&ListCounters::atomics>(atomics_row),
     };

@@ -54,6 +54,7 @@ struct ListCounters {
     uint fragments;
     uint deepest;
     uint dropped;
+    uint miscounted;
     uint unfinished;
     uint atomics;
 };
