@@ -18,6 +18,7 @@ enum class Capability : std::uint32_t {
     counted_draws,         ///< the device may read how many commands of a list it draws
     sample_varyings,       ///< `sample` varyings are divided by the w of the sample, not of the pixel's center
     helper_invocations,    ///< fragment shaders may read gl_HelperInvocation
+    filtered_floats,       ///< samplers filter 32-bit floats and RGBA16_UNORM; 16-bit floats every device filters
     count_
 };
 std::string_view name(Capability);

@@ -105,6 +105,15 @@ std::string missing_format(const vk::raii::PhysicalDevice& device) {
     return {};
 }
 
+/// Of what low-resolution prepasses keep, the formats that a device need not filter.
+bool filters_floats(const vk::raii::PhysicalDevice& device) {
+    constexpr Format formats[] = {Format::r32f, Format::rg32f, Format::rgba32f, Format::rgba16_unorm};
+    return std::ranges::all_of(formats, [&](Format format) {
+        const auto offered = device.getFormatProperties(device_format(format)).optimalTilingFeatures;
+        return bool(offered & vk::FormatFeatureFlagBits::eSampledImageFilterLinear);
+    });
+}
+
 std::string missing_limit(const vk::raii::PhysicalDevice& device) {
     const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>();
     const vk::PhysicalDeviceLimits& limits = chain.get<vk::PhysicalDeviceProperties2>().properties.limits;
@@ -156,6 +165,7 @@ Capabilities capabilities_of(const vk::raii::PhysicalDevice& device) {
         if (row.feature.of(features) && row.other.of(features)) found.push_back(row.capability);
     if (has_interlock(device)) found.push_back(Capability::fragment_interlock);
     if (!ends_long_loops(device)) found.push_back(Capability::long_loops);
+    if (filters_floats(device)) found.push_back(Capability::filtered_floats);
     // lavapipe 22.3 lacks both, 25.0 the first. Of devices that are no GPU none is asked for more than bits that stay as they
     // are.
     if (device.getProperties().deviceType != vk::PhysicalDeviceType::eCpu)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/stages.h"
+#include "replay/expectations/expectation_check.h"
 #include "replay/gpu/library_build.h"
 #include "tests/support/device.h"
 #include "tests/support/second_device.h"
@@ -56,6 +57,19 @@ TEST(Devices, ThatDoNotExistAreAnsweredWithTheList) {
         ASSERT_FALSE(opened);
         EXPECT_EQ(opened.error().fault, Fault::usage);
         EXPECT_THAT(opened.error().sentence, HasSubstr(shared_device().info().name));
+    }
+}
+
+TEST(Devices, ThatCannotFilterFloatsHavePrepassesMixedInTheShader) {
+    for (const char* technique : {"transparency/moments", "transparency/wavelet"}) {
+        const Request request{.choices = chosen({technique}, {"resolution=quarter"}), .outputs = {"color"}};
+        const auto color = [&](std::vector<std::string> without) {
+            const DeviceChoice choice{.validation = true, .without = std::move(without)};
+            const auto session = must(Session::open(scenario_frames("glass_and_smoke"), choice));
+            return must(session->run(request)).images.at("color");
+        };
+        const HostImage by_sampler = color({}), in_shader = color({"filtered_floats"});
+        EXPECT_LT(deviation_of("color", in_shader, by_sampler).rmse, 1e-3) << technique;
     }
 }
 

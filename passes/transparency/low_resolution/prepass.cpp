@@ -56,8 +56,10 @@ std::uint32_t channel_count(std::uint32_t channels, const Features& features) {
 
 std::uint32_t divisor_of(std::uint32_t resolution) { return 1u << resolution; }
 
-Filter prepass_filter(std::uint32_t resolution, Resolution drawn_at) {
-    return resolution == 0 && drawn_at == Resolution::full ? Filter::nearest : Filter::linear;
+PrepassRead prepass_read(const FrameImages& images, std::uint32_t resolution, Resolution drawn_at) {
+    if (resolution == 0 && drawn_at == Resolution::full) return {Filter::nearest, 0};
+    if (has(images.capabilities, Capability::filtered_floats)) return {Filter::linear, 0};
+    return {Filter::nearest, 1};
 }
 
 }  // namespace strata::transparency

@@ -19,8 +19,13 @@ Extent prepass_extent(Extent, std::uint32_t divisor);
 /// The row of the `resolution` parameter: a choice by name; divisor_of() is what it stands for.
 extern const Param resolution_row;
 std::uint32_t divisor_of(std::uint32_t resolution);
-/// How draws of the frame or of half its extent read a prepass at `resolution`: nearest where texel lies on texel.
-Filter prepass_filter(std::uint32_t resolution, Resolution drawn_at);
+/// How a draw reads a prepass through low_resolution/filtered.glsl.
+struct PrepassRead {
+    Filter filter;
+    std::uint32_t in_shader;  ///< fixed as `filters_in_shader`: 1 where the device cannot filter the prepass's formats
+};
+/// Draws of the frame, or of half its extent, read a prepass at `resolution`: nearest where texel lies on texel.
+PrepassRead prepass_read(const FrameImages&, std::uint32_t resolution, Resolution drawn_at);
 
 /// The row of the `channels` parameter: automatic, mono, rgb. channel_count() is how many functions a texel has: 1 or 3.
 extern const Param channels_row;

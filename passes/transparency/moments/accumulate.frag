@@ -4,6 +4,7 @@
 #include "passes/transparency/fragment.glsl"
 #include "passes/transparency/moments/moments.shared.h"
 #include "passes/transparency/functions/outputs.glsl"
+#include "passes/transparency/low_resolution/filtered.glsl"
 
 layout(push_constant, scalar) uniform Push { MomentsPush push; };
 #include "passes/transparency/moments/quantization.glsl"
@@ -53,10 +54,10 @@ float absorbance(float moments[8], float z) {
 
 float transmittance(uint channel, float z, float own_depth) {
     const vec3 at = vec3(drawn_place(), float(channel));
-    const float sum = textureLod(total, at, 0.0).r;
+    const float sum = filtered(total, at).r;
     if (sum < least_moment_depth) return 1.0;
     float moments[8];
-    decode(textureLod(head, at, 0.0), textureLod(tail, at, 0.0), sum, moments);
+    decode(filtered(head, at), filtered(tail, at), sum, moments);
     const float own = push.compensation == compensation_own ? push.overestimation * own_depth : 0.0;
     const float through = exp(min(own - sum * absorbance(moments, z), 0.0));
     if (is_finite(through)) return through;

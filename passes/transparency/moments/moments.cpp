@@ -113,10 +113,11 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, O
     }
     FunctionSums drawn = create_sums(graph, images, {.accumulation = params.accumulation, .offsets = offsets});
     draw_into(graph, "transparency/moments/accumulate", images, drawn, [&](DrawStep& draw, Resolution resolution) {
-        const Filter filter = prepass_filter(params.resolution, resolution);
-        draw.samples("total", moments.total, filter)
-            .samples("head", moments.head, filter)
-            .samples("tail", moments.tail, filter)
+        const PrepassRead read = prepass_read(images, params.resolution, resolution);
+        draw.samples("total", moments.total, read.filter)
+            .samples("head", moments.head, read.filter)
+            .samples("tail", moments.tail, read.filter)
+            .fixes("filters_in_shader", read.in_shader)
             .fixes("kind", params.kind)
             .fixes("storage", params.storage)
             .push(push);

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/fragment.glsl"
 #include "passes/transparency/functions/outputs.glsl"
+#include "passes/transparency/low_resolution/filtered.glsl"
 #include "passes/transparency/wavelet/wavelet.shared.h"
 
 layout(push_constant, scalar) uniform Push { WaveletPush push; };
@@ -27,17 +28,17 @@ void keep(uint first, vec4 four) {
 }
 
 void read_coefficients(vec3 at) {
-    keep(0u, textureLod(coefficients0, at, 0.0));
-    if (rank >= 2u) keep(4u, textureLod(coefficients1, at, 0.0));
+    keep(0u, filtered(coefficients0, at));
+    if (rank >= 2u) keep(4u, filtered(coefficients1, at));
     if (rank >= 3u) {
-        keep(8u, textureLod(coefficients2, at, 0.0));
-        keep(12u, textureLod(coefficients3, at, 0.0));
+        keep(8u, filtered(coefficients2, at));
+        keep(12u, filtered(coefficients3, at));
     }
     if (rank >= 4u) {
-        keep(16u, textureLod(coefficients4, at, 0.0));
-        keep(20u, textureLod(coefficients5, at, 0.0));
-        keep(24u, textureLod(coefficients6, at, 0.0));
-        keep(28u, textureLod(coefficients7, at, 0.0));
+        keep(16u, filtered(coefficients4, at));
+        keep(20u, filtered(coefficients5, at));
+        keep(24u, filtered(coefficients6, at));
+        keep(28u, filtered(coefficients7, at));
     }
 }
 

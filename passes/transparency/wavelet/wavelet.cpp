@@ -74,10 +74,12 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, O
     FunctionSums drawn = create_sums(graph, images, {.accumulation = params.accumulation, .offsets = offsets});
     draw_into(graph, "transparency/wavelet/accumulate", images, drawn, [&](DrawStep& draw, Resolution resolution) {
         // Coefficients of pixels with bounds of their own do not mix.
-        const Filter filter = params.bounds == bounds_pixel ? Filter::nearest : prepass_filter(params.resolution, resolution);
+        const PrepassRead read =
+            params.bounds == bounds_pixel ? PrepassRead{Filter::nearest, 0} : prepass_read(images, params.resolution, resolution);
         for (std::uint32_t i = 0; i < 8; ++i)
-            draw.samples(fmt::format("coefficients{}", i), i < coefficients.size() ? coefficients[i] : Image{}, filter);
+            draw.samples(fmt::format("coefficients{}", i), i < coefficients.size() ? coefficients[i] : Image{}, read.filter);
         draw.updates("Bounds", bounds)
+            .fixes("filters_in_shader", read.in_shader)
             .fixes("rank", params.rank)
             .fixes("bounds", params.bounds)
             .fixes("correction", params.correction)
