@@ -18,7 +18,10 @@ namespace strata {
 struct LimitWork {
     std::uint64_t copied_bytes = 64 << 20;                 ///< of one buffer to another
     std::uint32_t threads = 64 * 1024, iterations = 1024;  ///< of the loop of multiply-adds
-    std::stop_token stop = {};                             ///< asked between repeats
+    /// Copy and loop grow until each takes so long: below, a GPU's clocks and what a step costs besides decide. The copy grows as
+    /// far as the device has memory and binds a buffer.
+    double least_ms = 2;
+    std::stop_token stop = {};  ///< asked between repeats
 };
 
 /// In units per second.
@@ -26,6 +29,7 @@ struct DeviceLimits {
     Spread bytes;                                         ///< read and written by a copy of a buffer
     Spread operations;                                    ///< a multiply-add is two
     std::uint64_t copied_bytes = 0, operations_done = 0;  ///< by one repeat: counted, the operations by the threads themselves
+    std::uint32_t threads = 0, iterations = 0;            ///< LimitWork's, as large as they had to be
 };
 Result<DeviceLimits> measure_limits(Device&, std::size_t repeats, const LimitWork& = {});
 

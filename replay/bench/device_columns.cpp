@@ -106,8 +106,9 @@ Page page_of(const DeviceBench& bench) {
         fmt::format("device {} ({}), {}\n", bench.device.name, bench.device.driver, plural(bench.repeats, "timed run"));
     text += fmt::format("copying      {} GB/s: a buffer of {} MB, every byte read and written\n", giga(limits.bytes),
                         short_number(static_cast<double>(limits.copied_bytes) * .5e-6));
-    text += fmt::format("multiply-adds {} billion operations/s: a loop of eight chains per thread, a multiply-add is two\n",
-                        giga(limits.operations));
+    text +=
+        fmt::format("multiply-adds {} billion operations/s: {} threads, {} iterations of eight chains, a multiply-add is two\n",
+                    giga(limits.operations), limits.threads, limits.iterations);
     if (bench.device.software) text += "a CPU renders here: these are limits of its cores through this driver, and of no GPU\n";
     text += fmt::format("\n{}, {} x {}, {} per pixel: {} ms; the hottest steps\n\n", bench.scene, bench.width, bench.height,
                         plural(bench.samples, "sample"), short_number(bench.frame_ms));
@@ -142,7 +143,9 @@ std::string as_json(const DeviceBench& bench) {
                   {{"bytes_per_second", json_of(bench.limits.bytes)},
                    {"operations_per_second", json_of(bench.limits.operations)},
                    {"copied_bytes", bench.limits.copied_bytes},
-                   {"operations_done", bench.limits.operations_done}}},
+                   {"operations_done", bench.limits.operations_done},
+                   {"threads", bench.limits.threads},
+                   {"iterations", bench.limits.iterations}}},
                  {"scene", bench.scene},
                  {"frame", bench.frame},
                  {"frame_ms", bench.frame_ms},

@@ -87,7 +87,8 @@ TEST(Operations, AreCountedPerComponentAndPerCall) {
 
 TEST(DeviceLimits, TwiceTheTurnsAreTwiceTheMultiplyAddsThatTheThreadsCount) {
     const auto measure = [](std::uint32_t iterations) {
-        return must(measure_limits(shared_device(), 2, {.copied_bytes = 4096, .threads = 256, .iterations = iterations}));
+        const LimitWork work{.copied_bytes = 4096, .threads = 256, .iterations = iterations, .least_ms = 0};
+        return must(measure_limits(shared_device(), 2, work));
     };
     const DeviceLimits once = measure(8), twice = measure(16);
     EXPECT_EQ(once.operations_done, 256u * 8 * 16 * 2) << "16 multiply-adds an iteration, two operations each";
@@ -98,6 +99,17 @@ TEST(DeviceLimits, TwiceTheTurnsAreTwiceTheMultiplyAddsThatTheThreadsCount) {
         EXPECT_TRUE(std::isfinite(spread.median));
         EXPECT_GT(spread.low, 0);
     }
+}
+
+TEST(DeviceLimits, GrowUntilCopyAndLoopTakeLongEnough) {
+    const LimitWork small{.copied_bytes = 4096, .threads = 64, .iterations = 1, .least_ms = 2};
+    const DeviceLimits limits = must(measure_limits(shared_device(), 3, small));
+    const auto ms = [](std::uint64_t units, const Spread& per_second) { return 1e3 * double(units) / per_second.low; };
+    EXPECT_GT(limits.copied_bytes, 16u * 2 * 4096);
+    EXPECT_GT(ms(limits.copied_bytes, limits.bytes), 1);
+    EXPECT_GT(limits.threads, 16u * 64);
+    EXPECT_GT(ms(limits.operations_done, limits.operations), 1);
+    EXPECT_EQ(limits.operations_done, std::uint64_t{limits.threads} * limits.iterations * 16 * 2);
 }
 
 TEST(DeviceBench, StoppedGivesTheStepsByTheRunsThatAreComplete) {
