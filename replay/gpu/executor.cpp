@@ -35,6 +35,28 @@ struct HostCopies {
     HostImage take(const Copy& copy) const { return {copy.shape, readback.take(copy.ticket)}; }
 };
 
+/// Steps of a frame that are submitted together: amdgpu ends what takes longer than about 10 s.
+struct Piece {
+    vk::raii::CommandBuffer commands;
+    std::size_t first = 0, end = 0;
+};
+/// A frame whose steps take longer than this, going by the latest run of its plan, is submitted in pieces.
+constexpr double longest_submit_ms = 500;
+/// Of a plan that was not run before.
+constexpr std::size_t unknown_steps_per_submit = 16;
+constexpr std::string_view watchdog_words = "the driver's watchdog ends a step that takes longer than it allows";
+
+std::string text_of_step(const Plan& plan, std::size_t step) {
+    return text_of(plan.scopes[plan.steps[step].step.scope]) + " / " + plan.steps[step].step.name;
+}
+
+std::string text_of_steps(const Plan& plan, const Piece& piece) {
+    if (piece.first == piece.end) return "run the frame";
+    const std::string first = text_of_step(plan, piece.first);
+    if (piece.first + 1 == piece.end) return fmt::format("run '{}'", first);
+    return fmt::format("run steps {} to {}, '{}' to '{}'", piece.first, piece.end - 1, first, text_of_step(plan, piece.end - 1));
+}
+
 std::size_t steps_to_run(const Plan& plan, const RunOptions& options) {
     return std::min(plan.steps.size(), options.until ? *options.until + 1 : plan.steps.size());
 }
@@ -102,7 +124,10 @@ private:
     };
 
     Execution record_and_submit(const Plan&, const RunOptions&);
-    void record(const vk::raii::CommandBuffer&, Frame&);
+    std::size_t steps_per_submit(const Frame&) const;
+    std::vector<Piece> record(Frame&);
+    void record(const Piece&, Frame&);
+    void submit(std::vector<Piece>&, const Frame&);
     HostCopies::Copy copy_out(const vk::raii::CommandBuffer&, DeviceImage&, HostCopies&, std::optional<glm::uvec2> texel = {});
     void record_peeks(const vk::raii::CommandBuffer&, Frame&, std::size_t step);
     void read_kept(Frame&, Execution&);
@@ -115,8 +140,9 @@ private:
     Samplers samplers_;
     Placeholders placeholders_;
     Imports imports_;
-    std::optional<PlanMemory> memory_;  // of the latest plan
-    std::string place_;                 // what is being done, for failures
+    std::optional<PlanMemory> memory_;   // of the latest plan
+    std::optional<double> ms_per_step_;  // of its latest run
+    std::string place_;                  // what is being done, for failures
 };
 
 /// Runs the action; whatever goes wrong becomes a DeviceFailure or MemoryLacks that says where, and the plan's memory starts
@@ -133,7 +159,7 @@ void VulkanExecutor::as_device_failure(std::string place, Action action) {
             throw;
         }
     } catch (const vk::DeviceLostError& problem) {
-        throw DeviceLost("device.lost", fmt::format("{}: {}", place_, problem.what()));
+        throw DeviceLost("device.lost", fmt::format("{}: {}; {}", place_, problem.what(), watchdog_words));
     } catch (const vk::OutOfDeviceMemoryError& problem) {
         throw MemoryLacks("device.out_of_memory",
                           fmt::format("{}: the device has too little memory ({})", place_, problem.what()));
@@ -159,6 +185,7 @@ Execution VulkanExecutor::record_and_submit(const Plan& plan, const RunOptions& 
     HostTimer timer;
     if (!memory_ || !memory_->serves(plan)) {
         memory_.reset();
+        ms_per_step_.reset();
         memory_.emplace(*device_, plan);
     }
     const auto intervals = static_cast<std::uint32_t>(std::max<std::size_t>(1, plan.steps.size()));
@@ -175,21 +202,20 @@ Execution VulkanExecutor::record_and_submit(const Plan& plan, const RunOptions& 
 
     pipelines_->make(plan, steps_to_run(plan, options), options.stop);
     if (options.stop.stop_requested()) throw DeviceFailure("session.stopped", "stopped");
-    auto commands = device_->begin_commands();
+    std::vector<Piece> pieces;
     try {
-        record(commands, frame);
+        pieces = record(frame);
     } catch (...) {
         imports_.forget_use();
         throw;
     }
-    commands.end();
     execution.pipelines_created = pipelines_->created() - pipelines_before;
     execution.host_ms.pipelines = pipelines_->milliseconds() - pipelines_ms;
     execution.host_ms.record = timer() - execution.host_ms.pipelines;
 
-    place_ = "run the frame";
-    device_->submit(commands);
+    submit(pieces, frame);
     execution.host_ms.render = timer();
+    ms_per_step_ = execution.host_ms.render / static_cast<double>(std::max<std::size_t>(1, pieces.back().end));
     fail_on_messages();
 
     execution.step_costs = frame.stopwatch.costs();
@@ -199,15 +225,42 @@ Execution VulkanExecutor::record_and_submit(const Plan& plan, const RunOptions& 
     return execution;
 }
 
-void VulkanExecutor::record(const vk::raii::CommandBuffer& commands, Frame& frame) {
+std::size_t VulkanExecutor::steps_per_submit(const Frame& frame) const {
+    if (frame.options.steps_per_submit) return *frame.options.steps_per_submit;
+    if (!ms_per_step_) return unknown_steps_per_submit;
+    return static_cast<std::size_t>(std::clamp(longest_submit_ms / *ms_per_step_, 1., 1e6));
+}
+
+std::vector<Piece> VulkanExecutor::record(Frame& frame) {
+    const std::size_t end = steps_to_run(frame.plan, frame.options), steps = steps_per_submit(frame);
+    std::vector<Piece> pieces;
+    do {
+        const std::size_t first = pieces.empty() ? 0 : pieces.back().end;
+        pieces.push_back({device_->begin_commands(), first, std::min(first + steps, end)});
+        record(pieces.back(), frame);
+        pieces.back().commands.end();
+    } while (pieces.back().end < end);
+    return pieces;
+}
+
+/// One after the other, so that what is lost is lost in this one.
+void VulkanExecutor::submit(std::vector<Piece>& pieces, const Frame& frame) {
+    for (Piece& piece : pieces) {
+        place_ = text_of_steps(frame.plan, piece);
+        device_->submit(piece.commands);
+    }
+    place_ = "run the frame";
+}
+
+void VulkanExecutor::record(const Piece& piece, Frame& frame) {
     const Plan& plan = frame.plan;
+    const vk::raii::CommandBuffer& commands = piece.commands;
     StepRecorder recorder(commands, plan, frame.resources, *pipelines_, frame.sets);
     const bool has_labels = device_->instance().has_labels(), is_timed = frame.options.timestamps == Timestamps::on;
-    const std::size_t end = steps_to_run(plan, frame.options);
-    full_barrier(commands);  // what ran before the plan is visible when it starts
-    for (std::size_t i = 0; i < end; ++i) {
+    full_barrier(commands);  // what ran before is visible when it starts
+    for (std::size_t i = piece.first; i < piece.end; ++i) {
         const PlannedStep& planned = plan.steps[i];
-        place_ = text_of(plan.scopes[planned.step.scope]) + " / " + planned.step.name;
+        place_ = text_of_step(plan, i);
         if (has_labels) commands.beginDebugUtilsLabelEXT({place_.c_str()});
         if (is_timed) frame.stopwatch.begin(commands);
         recorder.barriers(planned.barriers);
@@ -217,7 +270,8 @@ void VulkanExecutor::record(const vk::raii::CommandBuffer& commands, Frame& fram
         record_peeks(commands, frame, i);
         fail_on_messages();
     }
-    if (end == plan.steps.size()) recorder.barriers(plan.final_barriers);
+    if (piece.end < steps_to_run(plan, frame.options)) return;
+    if (piece.end == plan.steps.size()) recorder.barriers(plan.final_barriers);
     imports_.settle(commands);  // a shortened run leaves them anywhere
     frame.peeks.readback.finish(commands);
 }

@@ -51,6 +51,8 @@ struct RunOptions {
     Timestamps timestamps = Timestamps::off;
     KeptImages kept_images = KeptImages::read;
     std::stop_token stop;  ///< once requested nothing is submitted any more: a DeviceFailure
+    /// Steps that are submitted together; empty: by what the plan took before, so that no driver's watchdog ends them.
+    std::optional<std::size_t> steps_per_submit;
 };
 
 /// Device memory in bytes, by the allocator's own count.

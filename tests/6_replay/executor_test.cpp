@@ -270,6 +270,43 @@ TEST(Executor, TimesEveryStep) {
     fmt::print("steps sum to {:.2f} of {:.2f} ms wall\n", sum, run.host_ms.render);
 }
 
+/// Images of a frame whose steps depend on each other, one of them looked at on the way.
+TEST(Executor, SubmitsAFrameInPiecesThatGiveTheSameBits) {
+    TestFrame frame;
+    frame.shader("next.comp", R"(
+        layout(local_size_x = 8, local_size_y = 8) in;
+        layout(set = 0, binding = 0, rgba32f) uniform image2DArray target;
+        layout(set = 0, binding = 1, scalar) buffer Sums { uint sums[]; };
+        void main() {
+            const ivec3 at = ivec3(gl_GlobalInvocationID);
+            const vec4 before = imageLoad(target, at);
+            atomicAdd(sums[0], 1);
+            imageStore(target, at, before * 1.25 + vec4(at, 1));
+        })");
+    Image image = frame.graph.create("image", {.extent = {8, 8}, .format = Format::rgba32f}),
+          last = frame.graph.create("last", {.extent = {8, 8}, .format = Format::rgba32f});
+    Buffer sums = frame.graph.create("sums", 4);
+    frame.graph.clear(image, {{1, 2, 3, 4}});
+    frame.graph.clear(sums, 0);
+    for (int i = 0; i < 5; ++i) frame.graph.compute("next.comp").updates("target", image).updates("Sums", sums).over({8, 8});
+    frame.graph.copy(image, last);
+    frame.graph.keep(last);
+    frame.graph.keep(sums);
+    const RunOptions whole{.peeks = {{.step = 3, .image = image}}, .timestamps = Timestamps::on, .steps_per_submit = 1000};
+    const Execution expected = frame.run(whole);
+    EXPECT_EQ(values_of<std::uint32_t>(expected.buffers.at(sums.id)), std::vector<std::uint32_t>{5 * 64});
+    for (const std::size_t steps : {1u, 3u, 7u, 8u}) {
+        RunOptions options = whole;
+        options.steps_per_submit = steps;
+        const Execution run = frame.run(options);
+        EXPECT_EQ(run.images.at(last.id).texels, expected.images.at(last.id).texels) << steps;
+        EXPECT_EQ(run.peeked.at(0).texels, expected.peeked.at(0).texels) << steps;
+        EXPECT_EQ(run.buffers.at(sums.id), expected.buffers.at(sums.id)) << steps;
+        ASSERT_THAT(run.step_costs, SizeIs(8));
+        EXPECT_THAT(run.step_costs, Each(testing::Field(&StepCost::ms, Gt(0))));
+    }
+}
+
 TEST(Executor, NamesTheStepThatFails) {
     TestFrame frame;
     Image image = frame.graph.create("missing import", {.format = Format::r32f});
