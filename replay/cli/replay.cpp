@@ -114,6 +114,12 @@ void print_times(const Run& run) {
     for (const StepRecord& step : run.steps)
         to_stdout("  {:>9.3f} ms +- {:<7.3f} {:<36} {}\n", step.ms->median, step.ms->mad, text_of(step.scope), step.name);
     to_stdout("  {:>9.3f} ms +- {:<7.3f} frame\n", run.frame_ms->median, run.frame_ms->mad);
+    if (run.whole_frame_ms)
+        to_stdout("  {:>9.3f} ms +- {:<7.3f} frame without timestamps between its steps\n", run.whole_frame_ms->median,
+                  run.whole_frame_ms->mad);
+    if (run.empty_step_ms)
+        to_stdout("  {:>9.3f} ms +- {:<7.3f} empty step: the part of every step that timestamps and barriers take\n",
+                  run.empty_step_ms->median, run.empty_step_ms->mad);
     const auto print_unchanged = [](const Spread& ms, std::string_view of) {
         to_stdout("  {:>9.3f} ms +- {:<7.3f} {}, unchanged since the frame before\n", ms.median, ms.mad, of);
     };
@@ -140,7 +146,9 @@ Result<void> time_unchanged(Session& session, Request request, std::size_t repea
 /// One run; or with --time as many as asked for after a warm-up, everything executed every time.
 Result<Run> run_once(Session& session, const Request& request, const ReplayArguments& options) {
     if (options.timed == 0) return session.run(request);
-    auto runs = session.time(std::span(&request, 1), options.timed);
+    Request timed = request;
+    timed.whole = timed.counted = true;
+    auto runs = session.time(std::span(&timed, 1), options.timed);
     if (!runs) return runs.error();
     Run run = std::move(runs->front());
     if (const auto done = time_unchanged(session, request, options.timed, run); !done) return done.error();
@@ -392,7 +400,8 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
     CLI::Option* time =
         app.add_option("--time", options->timed,
                        "time every step over this many repeats after a warm-up, as if no frame came before; print median and "
-                       "deviation, and what stages that keep work take where nothing changed")
+                       "deviation, the frame without timestamps between steps, an empty step, and what stages that keep work "
+                       "take where nothing changed")
             ->check(from_to(1, 10000));
     app.add_option(
            "-o,--output", options->folder,

@@ -155,6 +155,8 @@ ordered_json json_of(const DocumentHead& head, const Metadata& provenance, const
     if (!run.passes.empty()) json["passes"] = passes_of(run);
     if (verdict) json["expectation"] = json_of(*verdict);
     if (run.frame_ms) json["frame_ms"] = json_of(*run.frame_ms);
+    if (run.whole_frame_ms) json["whole_frame_ms"] = json_of(*run.whole_frame_ms);
+    if (run.empty_step_ms) json["empty_step_ms"] = json_of(*run.empty_step_ms);
     for (const auto& [stage, ms] : run.stage_ms) json["stage_ms"][stage] = json_of(ms);
     if (run.unchanged_frame_ms) json["unchanged_frame_ms"] = json_of(*run.unchanged_frame_ms);
     for (const auto& [stage, ms] : run.unchanged_stage_ms) json["unchanged_stage_ms"][stage] = json_of(ms);

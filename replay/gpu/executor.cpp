@@ -61,6 +61,10 @@ std::size_t steps_to_run(const Plan& plan, const RunOptions& options) {
     return std::min(plan.steps.size(), options.until ? *options.until + 1 : plan.steps.size());
 }
 
+bool asks_of_steps(const RunOptions& options) {
+    return options.timestamps == Timestamps::on || options.invocations == Invocations::counted;
+}
+
 /// Ids of the buffers that the steps write. Memory of all others holds what an earlier run left there.
 std::set<std::uint32_t> written_buffers(std::span<const PlannedStep> steps) {
     std::set<std::uint32_t> ids;
@@ -193,7 +197,7 @@ Execution VulkanExecutor::record_and_submit(const Plan& plan, const RunOptions& 
                 options,
                 PlanResources(plan, *memory_, imports_),
                 DescriptorSets(*device_, plan, samplers_, placeholders_),
-                Stopwatch(*device_, intervals),
+                Stopwatch(*device_, intervals, options.invocations),
                 {Readback(*device_), {}},
                 std::vector<HostCopies::Copy>(options.peeks.size())};
     execution.host_ms.allocate = timer();
@@ -218,7 +222,10 @@ Execution VulkanExecutor::record_and_submit(const Plan& plan, const RunOptions& 
     ms_per_step_ = execution.host_ms.render / static_cast<double>(std::max<std::size_t>(1, pieces.back().end));
     fail_on_messages();
 
-    execution.step_costs = frame.stopwatch.costs();
+    std::vector<StepCost> costs = frame.stopwatch.costs();
+    execution.empty_step_ms = frame.stopwatch.empty_ms();
+    if (options.timestamps == Timestamps::around_all) execution.all_steps_ms = costs.at(0).ms;
+    else execution.step_costs = std::move(costs);
     for (const HostCopies::Copy& copy : frame.peeked) execution.peeked.push_back(frame.peeks.take(copy));
     read_kept(frame, execution);
     execution.host_ms.read_back = timer();
@@ -256,8 +263,12 @@ void VulkanExecutor::record(const Piece& piece, Frame& frame) {
     const Plan& plan = frame.plan;
     const vk::raii::CommandBuffer& commands = piece.commands;
     StepRecorder recorder(commands, plan, frame.resources, *pipelines_, frame.sets);
-    const bool has_labels = device_->instance().has_labels(), is_timed = frame.options.timestamps == Timestamps::on;
+    const bool has_labels = device_->instance().has_labels(), is_last = piece.end == steps_to_run(plan, frame.options);
+    const bool is_timed_whole = frame.options.timestamps == Timestamps::around_all;
+    const bool is_timed = !is_timed_whole && asks_of_steps(frame.options);
     full_barrier(commands);  // what ran before is visible when it starts
+    if (piece.first == 0 && frame.options.timestamps == Timestamps::on) frame.stopwatch.time_nothing(commands);
+    if (piece.first == 0 && is_timed_whole) frame.stopwatch.begin(commands);
     for (std::size_t i = piece.first; i < piece.end; ++i) {
         const PlannedStep& planned = plan.steps[i];
         place_ = text_of_step(plan, i);
@@ -270,7 +281,8 @@ void VulkanExecutor::record(const Piece& piece, Frame& frame) {
         record_peeks(commands, frame, i);
         fail_on_messages();
     }
-    if (piece.end < steps_to_run(plan, frame.options)) return;
+    if (!is_last) return;
+    if (is_timed_whole) frame.stopwatch.end(commands);
     if (piece.end == plan.steps.size()) recorder.barriers(plan.final_barriers);
     imports_.settle(commands);  // a shortened run leaves them anywhere
     frame.peeks.readback.finish(commands);

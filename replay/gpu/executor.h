@@ -41,7 +41,10 @@ struct Peek {
     std::optional<glm::uvec2> texel = {};  ///< that column of every layer and slice alone; not of several samples
 };
 
-enum class Timestamps { off, on };
+/// Around every step, with barriers; or one pair around all of them, with nothing between steps.
+enum class Timestamps { off, on, around_all };
+/// Whether the device counts how often shaders run: queries around every step, which cost time.
+enum class Invocations { not_counted, counted };
 /// Whether the host reads the images that the graph keeps. They are made either way.
 enum class KeptImages { read, left };
 
@@ -53,6 +56,7 @@ struct RunOptions {
     std::stop_token stop;  ///< once requested nothing is submitted any more: a DeviceFailure
     /// Steps that are submitted together; empty: by what the plan took before, so that no driver's watchdog ends them.
     std::optional<std::size_t> steps_per_submit;
+    Invocations invocations = Invocations::not_counted;
 };
 
 /// Device memory in bytes, by the allocator's own count.
@@ -70,11 +74,14 @@ struct HostTimes {
 /// What a step took on the device.
 struct StepCost {
     double ms = 0;
-    std::optional<std::uint64_t> invocations;  ///< of fragment and compute shaders, where the device counts them
+    std::optional<std::uint64_t> invocations;  ///< of fragment and compute shaders, where they were asked for and are counted
 };
 
 struct Execution {
-    std::vector<StepCost> step_costs;  ///< one per executed step with timestamps on
+    std::vector<StepCost> step_costs;  ///< one per executed step with timestamps on, or invocations counted
+    /// With timestamps on: a step that does nothing takes this, and so much of every step's time is not its own. Median of a few.
+    std::optional<double> empty_step_ms;
+    std::optional<double> all_steps_ms;  ///< with one pair around all of them
     HostTimes host_ms;
     std::size_t pipelines_created = 0;
     // Images with several samples come back as layers, their depth as r32f. A shortened run gives what it made.

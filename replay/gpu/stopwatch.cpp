@@ -1,5 +1,8 @@
 #include "replay/gpu/stopwatch.h"
 
+#include <algorithm>
+#include <cassert>
+
 #include "replay/gpu/opened_device.h"
 #include "replay/gpu/step_recorder.h"
 
@@ -10,6 +13,8 @@ namespace {
 constexpr vk::QueryPipelineStatisticFlags counted = vk::QueryPipelineStatisticFlagBits::eFragmentShaderInvocations |
                                                     vk::QueryPipelineStatisticFlagBits::eComputeShaderInvocations;
 constexpr std::uint32_t counts = 2;
+/// Odd, for a median that was measured; the first can be slower than others.
+constexpr std::uint32_t empty_intervals = 5;
 
 /// The first `count` results of a pool, `each` numbers wide.
 std::vector<std::uint64_t> results(const vk::raii::QueryPool& pool, std::uint32_t count, std::uint32_t each) {
@@ -21,12 +26,12 @@ std::vector<std::uint64_t> results(const vk::raii::QueryPool& pool, std::uint32_
 
 }  // namespace
 
-Stopwatch::Stopwatch(const OpenedDevice& device, std::uint32_t intervals)
+Stopwatch::Stopwatch(const OpenedDevice& device, std::uint32_t intervals, Invocations wanted)
     : period_ns_(device.timestamp_period_ns()),
       mask_(device.timestamp_mask()),
-      times_(device.handle(), vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2 * intervals)) {
-    times_.reset(0, 2 * intervals);
-    if (!device.counts_invocations()) return;
+      times_(device.handle(), vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2 * (empty_intervals + intervals))) {
+    times_.reset(0, 2 * (empty_intervals + intervals));
+    if (wanted == Invocations::not_counted || !device.counts_invocations()) return;
     invocations_.emplace(device.handle(), vk::QueryPoolCreateInfo({}, vk::QueryType::ePipelineStatistics, intervals, counted));
     invocations_->reset(0, intervals);
 }
@@ -48,12 +53,36 @@ void Stopwatch::end(const vk::raii::CommandBuffer& commands) {
     write_time(commands);
 }
 
+void Stopwatch::time_nothing(const vk::raii::CommandBuffer& commands) {
+    assert(written_ == 0);
+    for (; empty_ < empty_intervals; ++empty_) {
+        write_time(commands);
+        write_time(commands);
+    }
+}
+
+std::vector<double> Stopwatch::milliseconds() const {
+    if (written_ == 0) return {};
+    const std::vector<std::uint64_t> ticks = results(times_, written_, 1);
+    std::vector<double> ms;
+    for (std::size_t i = 0; i + 1 < ticks.size(); i += 2)
+        ms.push_back(static_cast<double>((ticks[i + 1] - ticks[i]) & mask_) * period_ns_ * 1e-6);
+    return ms;
+}
+
+std::optional<double> Stopwatch::empty_ms() const {
+    if (empty_ == 0) return {};
+    std::vector<double> ms = milliseconds();
+    ms.resize(empty_);
+    std::ranges::sort(ms);
+    return ms[ms.size() / 2];
+}
+
 std::vector<StepCost> Stopwatch::costs() const {
     std::vector<StepCost> intervals(begun_);
     if (begun_ == 0) return intervals;
-    const std::vector<std::uint64_t> ticks = results(times_, written_, 1);
-    for (std::size_t i = 0; i < begun_; ++i)
-        intervals[i].ms = static_cast<double>((ticks[2 * i + 1] - ticks[2 * i]) & mask_) * period_ns_ * 1e-6;
+    const std::vector<double> ms = milliseconds();
+    for (std::size_t i = 0; i < begun_; ++i) intervals[i].ms = ms[empty_ + i];
     if (!invocations_) return intervals;
     const std::vector<std::uint64_t> numbers = results(*invocations_, begun_, counts);
     for (std::size_t i = 0; i < begun_; ++i) intervals[i].invocations = numbers[counts * i] + numbers[counts * i + 1];

@@ -26,7 +26,10 @@ Result<void> RowTimes::time(std::vector<std::size_t> rows, std::size_t repeats, 
     if (rows.empty() || repeats == 0) return {};
     if (unit_ && std::ranges::count(rows, *unit_) == 0) rows.insert(rows.begin(), *unit_);
     std::vector<Request> requests;
-    for (const std::size_t row : rows) requests.push_back(all_[row].variant->request);
+    for (const std::size_t row : rows) {
+        requests.push_back(all_[row].variant->request);
+        requests.back().counted = !all_[row].invocations;
+    }
     std::vector<std::size_t> keeping;  // rows that are timed in unchanged frames, too, after all others and the first time alone
     for (const std::size_t row : rows) {
         if (!all_[row].variant->technique->abilities.keeps_work || !all_[row].unchanged_ms.empty()) continue;

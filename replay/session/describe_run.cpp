@@ -22,6 +22,10 @@ std::uint32_t count_of(const Execution& execution, const CounterSource& source, 
     return value;
 }
 
+bool is_of_stage(const Scope& scope, std::string_view stage) {
+    return scope.kind == ScopeKind::pass && name(scope.stage) == stage;
+}
+
 }  // namespace
 
 std::vector<CounterRecord> read_counters(const Declaration& d, const Execution& execution, std::optional<std::uint32_t> scope) {
@@ -148,6 +152,13 @@ Run describe_run(const Declaration& d) {
     return run;
 }
 
+void add_invocations(Run& run, const std::vector<StepCost>& steps) {
+    for (const auto& [stage, choice] : run.choices)
+        for (std::size_t i = 0; i < steps.size(); ++i)
+            if (is_of_stage(run.steps[i].scope, stage) && steps[i].invocations)
+                run.stage_invocations[stage] += *steps[i].invocations;
+}
+
 void add_costs(Run& run, const std::vector<std::vector<StepCost>>& repeats, const SortTimes& sorts) {
     const auto sums_of = [&](const std::function<bool(std::size_t)>& counts) {
         std::vector<double> sums;
@@ -175,16 +186,10 @@ void add_costs(Run& run, const std::vector<std::vector<StepCost>>& repeats, cons
         run.steps[i].ms = spread_of(run.steps[i].ms_by_repeat);
     }
     for (const auto& [stage, choice] : run.choices) {
-        const auto is_its = [&](std::size_t step) {
-            const Scope& scope = run.steps[step].scope;
-            return scope.kind == ScopeKind::pass && name(scope.stage) == stage;
-        };
-        auto sums = sums_of(is_its);
+        auto sums = sums_of([&](std::size_t step) { return is_of_stage(run.steps[step].scope, stage); });
         add_sorts(stage, sums);
         run.stage_ms[stage] = spread_of(sums);
         run.stage_ms_by_repeat[stage] = sums;
-        for (std::size_t i = 0; !repeats.empty() && i < repeats.back().size(); ++i)
-            if (is_its(i) && repeats.back()[i].invocations) run.stage_invocations[stage] += *repeats.back()[i].invocations;
     }
 }
 

@@ -26,7 +26,9 @@ std::vector<CounterRecord> summed(std::vector<CounterRecord>);
 std::vector<CounterRecord> run_counters(const Declaration&, const Execution&, std::optional<std::size_t> until = {});
 /// By stage: what the host sorted for it in each repeat, in milliseconds.
 using SortTimes = std::map<std::string, std::vector<double>>;
-/// Spreads over repeats of the milliseconds of each step, and of what was sorted; how often shaders ran, in the last one.
+/// How often shaders ran.
+void add_invocations(Run&, const std::vector<StepCost>&);
+/// Spreads over repeats of the milliseconds of each step, and of what was sorted.
 void add_costs(Run&, const std::vector<std::vector<StepCost>>& repeats, const SortTimes&);
 /// The techniques of the frame's passes that cannot do one of its features.
 std::vector<UnsupportedChoice> not_supported(const Declaration&, const Features&);

@@ -61,8 +61,9 @@ public:
     struct TimedRun {
         Run run;
         std::vector<StepCost> step_costs;
+        std::optional<double> empty_step_ms;
     };
-    Result<TimedRun> time_alone(const Request&);
+    Result<TimedRun> time_alone(const Request&, const RunOptions& measured);
     Result<StepCounts> count(const Request&);   ///< see count_steps()
     Result<ProductUses> watch(const Request&);  ///< see product_uses()
     /// StepCounts::rasterized.
@@ -71,11 +72,16 @@ public:
     struct RequestTimes {
         std::vector<StepCost> steps;
         std::map<std::string, double> sorts;
+        std::optional<double> empty_step_ms;
     };
     using RepeatTimes = std::vector<RequestTimes>;
     /// Runs every request once, what they share once. The first turn makes the runs that the others add times to; counters are
     /// those of the last turn, in which state that outlives a frame (Graph::remember) is what it was when the times were taken.
-    Result<RepeatTimes> time_one_repeat(std::span<const Request>, std::vector<Run>&, const Progress&);
+    Result<RepeatTimes> time_one_repeat(std::span<const Request>, std::vector<Run>&, const RunOptions& measured, const Progress&);
+    /// Runs the requests once more whose invocations are counted: no query stands in what is timed.
+    Result<void> count_invocations(std::span<const Request>, std::vector<Run>&);
+    /// The steps of a frame between two timestamps, so many times.
+    Result<Spread> time_whole(const Request&, std::size_t repeats);
     Result<void> time_sorts(const Request&, const Run&, std::map<std::string, double>& sorts);
 
 private:

@@ -53,6 +53,8 @@ struct Request {
     bool once = false;  ///< nothing is kept for later runs that share stages with this one
     /// Timed as a frame that follows itself: what need not be done again is not. Else as if nothing came before it.
     bool unchanged = false;
+    bool whole = false;    ///< timed as a whole, too (Run::whole_frame_ms): as many more runs
+    bool counted = false;  ///< timed, and run once more to count how often shaders run (Run::stage_invocations)
     friend bool operator==(const Request&, const Request&) = default;
 };
 
@@ -121,7 +123,8 @@ struct Run {
     /// Times of a frame that follows itself, where a technique keeps work (Request::unchanged): the frame's, and by stage.
     std::optional<Spread> unchanged_frame_ms;
     std::map<std::string, Spread> unchanged_stage_ms;
-    std::map<std::string, std::uint64_t> stage_invocations;  ///< with timing: how often its fragment and compute shaders ran
+    std::map<std::string, std::uint64_t>
+        stage_invocations;  ///< with Request::counted: how often its fragment and compute shaders ran
     std::uint32_t width = 0, height = 0, samples = 1;
     std::uint64_t image_bytes = 0, buffer_bytes = 0;
     std::map<std::string, std::uint64_t> stage_bytes;  ///< images and buffers first used by the stage's technique
@@ -132,6 +135,12 @@ struct Run {
     std::vector<std::string> notes;        ///< what had to be reduced to fit the device; shaders that are not those built in
     std::vector<LightFault> light_faults;  ///< with LightCheck::on, by pass in the order of the frame
     std::vector<PassImages> passes;        ///< with Passes::read_back, in the order of the frame
+    /// With timing: a step that does nothing takes this. So much of the time of every step, and of frame_ms as often as there are
+    /// steps, is that of timestamps and barriers.
+    std::optional<Spread> empty_step_ms;
+    /// With timing and Request::whole: the frame between two timestamps, with nothing between its steps but their own barriers,
+    /// so that they overlap where the device lets them. Without what the host sorts.
+    std::optional<Spread> whole_frame_ms;
 };
 
 /// What a step of the plan wrote, read back right after it.

@@ -112,7 +112,7 @@ std::uint64_t points_of(const DrawnStep& drawn, std::span<const RowPoints> rows)
 }
 
 Result<StepCounts> count_everything(DeviceSession& session, const Request& request) {
-    auto timed = session.time_alone(request);
+    auto timed = session.time_alone(request, {.invocations = Invocations::counted});
     if (!timed) return timed.error();
     StepCounts counts{.invocations = {}, .rasterized = {}, .counters = std::move(timed->run.counters)};
     for (const StepCost& cost : timed->step_costs) counts.invocations.push_back(cost.invocations);

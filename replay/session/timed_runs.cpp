@@ -84,16 +84,45 @@ void add_results(Run& whole, Run executed) {
 
 }  // namespace
 
-Result<DeviceSession::TimedRun> DeviceSession::time_alone(const Request& request) {
+Result<DeviceSession::TimedRun> DeviceSession::time_alone(const Request& request, const RunOptions& measured) {
     const auto declared = prepare(request, nullptr, Keep::outputs);
     if (!declared) return declared.error();
     const Work work = request.unchanged ? Work::found : Work::done;
     if (request.unchanged)
         if (const auto before = execute(*declared, {}, work); !before) return before.error();
-    auto execution = execute(*declared, {.timestamps = Timestamps::on}, work);
+    auto execution = execute(*declared, measured, work);
     if (!execution) return execution.error();
-    TimedRun timed{finished(*declared, *execution), std::move(execution->step_costs)};
+    TimedRun timed{finished(*declared, *execution), std::move(execution->step_costs), execution->empty_step_ms};
     return timed;
+}
+
+Result<Spread> DeviceSession::time_whole(const Request& request, std::size_t repeats) {
+    const auto declared = prepare(request, nullptr, Keep::outputs);
+    if (!declared) return declared.error();
+    std::vector<double> ms;
+    while (ms.size() < repeats) {
+        const auto execution =
+            execute(*declared, {.timestamps = Timestamps::around_all}, request.unchanged ? Work::found : Work::done);
+        if (!execution) return execution.error();
+        ms.push_back(*execution->all_steps_ms);
+    }
+    return spread_of(ms);
+}
+
+Result<void> DeviceSession::count_invocations(std::span<const Request> requests, std::vector<Run>& runs) {
+    std::vector<Request> counted;
+    std::vector<Run> counted_runs;
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+        if (!requests[i].counted) continue;
+        counted.push_back(requests[i]);
+        counted_runs.push_back({.steps = runs[i].steps, .skipped = runs[i].skipped});
+    }
+    if (counted.empty()) return {};
+    const auto turn = time_one_repeat(counted, counted_runs, {.invocations = Invocations::counted}, {});
+    if (!turn) return turn.error();
+    for (std::size_t i = 0, place = 0; i < requests.size(); ++i)
+        if (requests[i].counted) add_invocations(runs[i], (*turn)[place++].steps);
+    return {};
 }
 
 Result<Run> DeviceSession::plan_run(const Request& request) {
@@ -116,7 +145,7 @@ Result<void> DeviceSession::time_sorts(const Request& request, const Run& run, s
 }
 
 Result<DeviceSession::RepeatTimes> DeviceSession::time_one_repeat(std::span<const Request> requests, std::vector<Run>& runs,
-                                                                  const Progress& progress) {
+                                                                  const RunOptions& measured, const Progress& progress) {
     const bool is_first = runs.empty();
     memo_.clear();
     ExecutedPasses passes;
@@ -130,21 +159,23 @@ Result<DeviceSession::RepeatTimes> DeviceSession::time_one_repeat(std::span<cons
         }
         std::optional<std::vector<StepCost>> costs;
         if (requests.size() > 1 && !requests[i].unchanged) {
-            const auto declared = prepare_with_memo(requests[i], {.timestamps = Timestamps::on});
+            const auto declared = prepare_with_memo(requests[i], measured);
             if (!declared) return declared.error();
-            const auto execution = execute(*declared, {.timestamps = Timestamps::on});
+            const auto execution = execute(*declared, measured);
             if (!execution) return execution.error();
             remember(*declared, *execution);
             const RequestScopes of(*declared, i);
             add_executed(*declared, *execution, of, passes);
             costs = costs_of(runs[i].steps, of, passes);
+            times[i].empty_step_ms = execution->empty_step_ms;
             if (is_first) add_results(runs[i], finished(*declared, *execution));
             else runs[i].counters = run_counters(*declared, *execution);
         }
         if (!costs) {
-            auto alone = time_alone(requests[i]);
+            auto alone = time_alone(requests[i], measured);
             if (!alone) return alone.error();
             costs = std::move(alone->step_costs);
+            times[i].empty_step_ms = alone->empty_step_ms;
             if (is_first) runs[i] = std::move(alone->run);
             else runs[i].counters = std::move(alone->run.counters);
         }
@@ -160,16 +191,18 @@ Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, 
     drop_large_fragments(memo_.budget());
     std::vector<std::vector<std::vector<StepCost>>> steps(requests.size());
     std::vector<SortTimes> sorts(requests.size());
+    std::vector<std::vector<double>> empty_steps(requests.size());
     const auto add = [&](RepeatTimes turn) {
         for (std::size_t i = 0; i < turn.size(); ++i) {
             steps[i].push_back(std::move(turn[i].steps));
             for (const auto& [stage, ms] : turn[i].sorts) sorts[i][stage].push_back(ms);
+            if (turn[i].empty_step_ms) empty_steps[i].push_back(*turn[i].empty_step_ms);
         }
     };
     const std::size_t pipelines_before = executor_->pipelines_created();
     for (std::size_t place = 0; steps.front().size() < repeats; ++place) {
         const std::string what = place == 0 ? "warming up" : fmt::format("timing, {} of {}", steps.front().size() + 1, repeats);
-        auto turn = time_one_repeat(requests, runs, [&](std::string_view, double done) {
+        auto turn = time_one_repeat(requests, runs, {.timestamps = Timestamps::on}, [&](std::string_view, double done) {
             if (progress) progress(what, (double(place) + done) / double(repeats + 1));
         });
         if (!turn && turn.error().fault == Fault::stopped && !steps.front().empty()) break;
@@ -177,7 +210,19 @@ Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, 
         const bool is_warm = place > 0 || (requests.size() > 1 && executor_->pipelines_created() == pipelines_before);
         if (is_warm) add(*std::move(turn));
     }
-    for (std::size_t i = 0; i < runs.size(); ++i) add_costs(runs[i], steps[i], sorts[i]);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        add_costs(runs[i], steps[i], sorts[i]);
+        if (!empty_steps[i].empty()) runs[i].empty_step_ms = spread_of(empty_steps[i]);
+    }
+    if (stop_.stop_requested()) return runs;
+    if (const auto counted = count_invocations(requests, runs); !counted && counted.error().fault != Fault::stopped)
+        return counted.error();
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        if (!requests[i].whole) continue;
+        const auto whole = time_whole(requests[i], steps[i].size());
+        if (whole) runs[i].whole_frame_ms = *whole;
+        else if (whole.error().fault != Fault::stopped) return whole.error();
+    }
     return runs;
 }
 

@@ -259,15 +259,28 @@ TEST(Executor, TimesEveryStep) {
     const Execution run = frame.run({.timestamps = Timestamps::on});
     ASSERT_THAT(run.step_costs, SizeIs(5));
     EXPECT_THAT(run.step_costs, Each(testing::Field(&StepCost::ms, Gt(0))));
+    EXPECT_FALSE(run.step_costs[1].invocations) << "nothing is counted while something is timed";
+    ASSERT_TRUE(run.empty_step_ms);
+    EXPECT_GT(*run.empty_step_ms, 0);
+    EXPECT_LT(*run.empty_step_ms, run.step_costs[1].ms);
     // A clear runs no shader, a dispatch one per thread: where the device counts them.
-    if (run.step_costs[0].invocations) {
-        EXPECT_EQ(run.step_costs[0].invocations, 0u);
-        EXPECT_EQ(run.step_costs[1].invocations, 65536u);
+    const Execution counted = frame.run({.invocations = Invocations::counted});
+    ASSERT_THAT(counted.step_costs, SizeIs(5));
+    if (counted.step_costs[0].invocations) {
+        EXPECT_EQ(counted.step_costs[0].invocations, 0u);
+        EXPECT_EQ(counted.step_costs[1].invocations, 65536u);
     }
     double sum = 0;
     for (const StepCost& cost : run.step_costs) sum += cost.ms;
     RecordProperty("sum_of_wall_percent", static_cast<int>(100 * sum / run.host_ms.render));
     fmt::print("steps sum to {:.2f} of {:.2f} ms wall\n", sum, run.host_ms.render);
+    for (const std::size_t steps : {1u, 1000u}) {
+        const Execution whole = frame.run({.timestamps = Timestamps::around_all, .steps_per_submit = steps});
+        EXPECT_THAT(whole.step_costs, SizeIs(0));
+        EXPECT_FALSE(whole.empty_step_ms);
+        ASSERT_TRUE(whole.all_steps_ms);
+        EXPECT_GT(*whole.all_steps_ms, sum / 3) << "all steps and not the last";  // a busy machine is as slow as it likes
+    }
 }
 
 /// Images of a frame whose steps depend on each other, one of them looked at on the way.

@@ -57,6 +57,32 @@ TEST(Timing, EveryStepHasAMedianAndASpread) {
         EXPECT_GE(step.ms->low, 0);
     }
     EXPECT_GT(runs[0].frame_ms->median, 0);
+    ASSERT_TRUE(runs[1].empty_step_ms);
+    EXPECT_EQ(runs[1].empty_step_ms->repeats, 3u);
+    EXPECT_LT(runs[1].empty_step_ms->median, runs[1].frame_ms->median / double(runs[1].steps.size()));
+    EXPECT_FALSE(runs[0].whole_frame_ms) << "nobody asked";
+}
+
+TEST(Timing, OfAFrameAsAWholeHasNothingBetweenItsSteps) {
+    const auto session = scenario_session("three_panes");
+    const Request request{.whole = true};
+    const auto run = must(session->time(std::span(&request, 1), 3)).front();
+    ASSERT_TRUE(run.whole_frame_ms);
+    EXPECT_EQ(run.whole_frame_ms->repeats, 3u);
+    EXPECT_GT(run.whole_frame_ms->low, run.empty_step_ms->median);
+}
+
+/// In a run of its own: none of the timed ones has queries for it.
+TEST(Timing, CountsHowOftenShadersRun) {
+    const auto session = scenario_session("three_panes");
+    const auto counts = [&](std::size_t requests, std::size_t repeats) {
+        return must(session->time(std::vector<Request>(requests, Request{.counted = true}), repeats)).back().stage_invocations;
+    };
+    const auto counted = counts(1, 1);
+    EXPECT_GE(counted.at("transparency"), 64u * 36);
+    EXPECT_EQ(counts(1, 3), counted);
+    EXPECT_EQ(counts(2, 2), counted);
+    EXPECT_TRUE(must(session->time(std::vector<Request>(1), 1)).front().stage_invocations.empty()) << "nobody asked";
 }
 
 /// Else the order that an engine must make in every frame would be free.

@@ -27,7 +27,8 @@ TEST(StepCounts, OfIndirectDispatchesAreWhatAWholeRunCounts) {
     Session& session = session_of_scenarios();
     const Request request = on("agents_hq", "lighting/tiled");
     const StepCounts counts = must(count_steps(session, request));
-    const auto whole = must(static_cast<DeviceSession&>(session).time_alone(request));
+    const RunOptions counted{.invocations = Invocations::counted};
+    const auto whole = must(static_cast<DeviceSession&>(session).time_alone(request, counted));
     const Plan plan = must(session.plan(request)).plan;
     ASSERT_EQ(counts.invocations.size(), plan.steps.size());
     std::size_t compared = 0;
