@@ -5,29 +5,15 @@
 #include <map>
 #include <utility>
 
-#include "passes/registry.h"
 #include "passes/stages.h"
 #include "passes/technique.h"
-#include "replay/report/variants.h"
+#include "replay/bench/timed_variants.h"
 
 namespace strata {
 namespace {
 
 /// Timed so far: the runs of two variants by what they are.
 using TimedPairs = std::map<std::string, std::vector<Run>>;
-
-/// Whether a variant can be timed on the frame at all.
-Result<void> check(Session& session, const Variant& variant) {
-    const auto planned = session.plan(variant.request);
-    if (!planned) return planned.error();
-    for (const SkippedStage& skipped : planned->skipped)
-        if (skipped.stage == variant.technique->stage)
-            return fail(Fault::usage, "stage.not_needed", "the frame does not need {stage}: {reason}", name(skipped.stage),
-                        skipped.reason);
-    if (const std::string reason = unsupported_because(*variant.technique, planned->features); !reason.empty())
-        return fail(Fault::usage, "technique.cannot_do", "{technique} cannot do {feature}", variant.technique->name, reason);
-    return {};
-}
 
 Result<std::pair<Variant, Variant>> variants_of(Session& session, const Claim& claim) {
     const bool changes = claim.ratio->of_frame.change || claim.ratio->against_frame.change;
@@ -44,22 +30,16 @@ Result<std::pair<Variant, Variant>> variants_of(Session& session, const Claim& c
     const auto against = variant_of(*claim.technique, claim.ratio->against, base);
     if (!against) return against.error();
     for (const Variant* variant : {&std::as_const(*of), &*against})
-        if (const auto fits = check(session, *variant); !fits) return fits.error();
+        if (const auto fits = check_can_run(session, *variant); !fits) return fits.error();
     return std::pair{*of, *against};
-}
-
-/// Whether a step is one of those that the ratio compares, on the variant of this technique.
-bool counts(const StepRecord& step, const Technique& technique, const TimeRatio& ratio) {
-    if (!ratio.stages.empty()) return step.scope.kind == ScopeKind::pass && std::ranges::count(ratio.stages, step.scope.at) > 0;
-    const auto is_part = [&](std::string_view part) { return step.name.find(part) != step.name.npos; };
-    return is_pass_of(step.scope, technique.name) && (ratio.steps.empty() || std::ranges::any_of(ratio.steps, is_part));
 }
 
 /// The time of the steps that count, repeat by repeat; none where there is no such step.
 std::vector<double> times_of(const Run& run, const Technique& technique, const TimeRatio& ratio) {
+    if (ratio.stages.empty()) return times_of_steps(run, technique.name, ratio.steps);
     std::vector<double> sums;
     for (const StepRecord& step : run.steps) {
-        if (!counts(step, technique, ratio)) continue;
+        if (step.scope.kind != ScopeKind::pass || std::ranges::count(ratio.stages, step.scope.at) == 0) continue;
         sums.resize(step.ms_by_repeat.size());
         for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += step.ms_by_repeat[i];
     }

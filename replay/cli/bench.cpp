@@ -1,4 +1,4 @@
-// strata bench: the ratios of times that a technique states, measured on this device; or the device itself.
+// strata bench: the ratios of times and the published tables of a technique, measured on this device; or the device itself.
 #include "replay/bench/bench.h"
 
 #include <algorithm>
@@ -13,8 +13,10 @@
 #include "capture_format/reader.h"
 #include "captures/scenarios.h"
 #include "passes/registry.h"
+#include "passes/stages.h"
 #include "passes/technique.h"
 #include "replay/bench/device_bench.h"
+#include "replay/bench/published_tables.h"
 #include "replay/cli/given_options.h"
 #include "replay/cli/left_out.h"
 #include "replay/cli/table_output.h"
@@ -39,6 +41,7 @@ struct BenchArguments {
     OpenOptions open;
     ChoiceOptions choices;
     std::size_t frame = 0, repeats = 7;
+    bool tables = false;  ///< published ones, instead of ratios
     TableOutput output;
 };
 
@@ -65,6 +68,33 @@ Result<std::vector<Claim>> claims_of(const std::string& word, const std::string&
     if (claims.empty())
         return fail(Fault::usage, "bench.unknown_ratio", "no ratio of {technique} has '{only}' in its name; its ratios: {known}",
                     word, only, fmt::format("{}", fmt::join(names, "; ")));
+    return claims;
+}
+
+/// Published tables of the techniques of that name, or of that stage. `only` is in their titles.
+Result<std::vector<TableClaim>> tables_of(const std::string& word, const std::string& only) {
+    std::vector<TableClaim> claims;
+    std::vector<std::string_view> known{the_device}, publishing, titles;
+    const auto words = words_for_techniques();
+    known.insert(known.end(), words.begin(), words.end());
+    const auto stage = find_stage(word);
+    const auto called = stage ? techniques_of(*stage) : techniques_called(word);
+    for (const Technique& technique : techniques()) {
+        if (!technique.claims.tables.empty()) publishing.push_back(technique.name);
+        if (std::ranges::count(called, &technique) == 0) continue;
+        for (const PublishedTable& table : technique.claims.tables) {
+            titles.push_back(table.title);
+            if (table.title.find(only) != table.title.npos) claims.push_back({.technique = &technique, .table = &table});
+        }
+    }
+    if (called.empty())
+        return fail(Fault::usage, "technique.unknown", "no technique {technique}{suggestion}", word, did_you_mean(word, known));
+    if (titles.empty())
+        return fail(Fault::usage, "bench.no_tables", "{technique} has no published tables; these techniques do: {known}", word,
+                    fmt::format("{}", fmt::join(publishing, ", ")));
+    if (claims.empty())
+        return fail(Fault::usage, "bench.unknown_table", "no table of {technique} has '{only}' in its title; its tables: {known}",
+                    word, only, fmt::format("{}", fmt::join(titles, "; ")));
     return claims;
 }
 
@@ -107,6 +137,18 @@ Result<std::vector<Frame>> frames_of(std::span<Claim> claims, PixelExtent extent
     return frames.taken();
 }
 
+/// The same for tables.
+Result<std::vector<Frame>> frames_of(std::span<TableClaim> claims, PixelExtent extent) {
+    ScenarioFrames frames(extent);
+    for (TableClaim& claim : claims) {
+        claim.scene = claim.table->scenario;
+        const auto place = frames.place_of(claim.table->scenario, {});
+        if (!place) return place.error();
+        claim.base.variant.frame = *place;
+    }
+    return frames.taken();
+}
+
 /// Frames of scenarios at the extent that was asked for, or at the one that suits the device.
 template <typename FramesOf>
 Result<std::unique_ptr<Session>> open_scenarios(const BenchArguments& options, const FramesOf& frames_of) {
@@ -120,8 +162,10 @@ Result<std::unique_ptr<Session>> open_scenarios(const BenchArguments& options, c
     return frames ? Session::open(*std::move(frames), options.open.device) : frames.error();
 }
 
-Result<std::unique_ptr<Session>> open_capture(const BenchArguments& options, std::span<Claim> claims) {
-    for (Claim& claim : claims) {
+/// Of ratios or tables.
+template <typename Measured>
+Result<std::unique_ptr<Session>> open_capture(const BenchArguments& options, Measured& claims) {
+    for (auto& claim : claims) {
         claim.scene = options.open.capture.filename().string();
         claim.base.variant.frame = options.frame;
     }
@@ -166,8 +210,30 @@ Result<void> bench_the_device(const BenchArguments& options) {
     return print(options, *std::move(made));
 }
 
+Result<void> bench_tables(const BenchArguments& options) {
+    auto claims = tables_of(options.word, options.only);
+    if (!claims) return claims.error();
+    const auto base = request_of(options.choices);
+    if (!base) return base.error();
+    for (TableClaim& claim : *claims) claim.base = *base;
+    const auto frames = [&](PixelExtent extent) { return frames_of(*claims, extent); };
+    const auto session = options.open.capture.empty() ? open_scenarios(options, frames) : open_capture(options, *claims);
+    if (!session) return session.error();
+    LeftOutNotes notes;
+    for (const TableClaim& claim : *claims) static_cast<void>(notes.tell(**session, claim.base));  // its rows say why they fail
+    const StopAtSignal signal;
+    (*session)->stop_when(signal.token());
+    const auto measured = measure_tables(**session, *claims, options.repeats, progress_line());
+    if (!measured) return measured.error();
+    return print(options, *measured);
+}
+
 Result<void> bench(const BenchArguments& options) {
     if (const auto fits = check_ending(options.output); !fits) return fits;
+    if (options.tables && options.word == the_device)
+        return fail(Fault::usage, "options.not_applicable", "{option} does not apply: {reason}", "--tables",
+                    "no source prints tables of a device");
+    if (options.tables) return bench_tables(options);
     if (options.word == the_device) return bench_the_device(options);
     auto claims = claims_of(options.word, options.only);
     if (!claims) return claims.error();
@@ -195,8 +261,8 @@ Result<void> bench(const BenchArguments& options) {
 std::function<Result<void>()> declare_bench(CLI::App& app) {
     const auto options = std::make_shared<BenchArguments>();
     app.add_option("technique", options->word,
-                   "technique, with or without its stage; or 'device': bytes and operations of the slowest steps, relative to "
-                   "what the device can do")
+                   "technique, with or without its stage; with --tables also a stage; or 'device': bytes and operations of the "
+                   "slowest steps, relative to what the device can do")
         ->required();
     CLI::Option* capture =
         app.add_option("capture", options->open.capture,
@@ -205,7 +271,9 @@ std::function<Result<void>()> declare_bench(CLI::App& app) {
     add_options(app, options->open.device);
     app.add_flag("--allow-partial", options->open.allow_partial, "read the complete frames of a truncated file")->needs(capture);
     add_options(app, options->choices);
-    app.add_option("--only", options->only, "measure only ratios whose name contains this text");
+    app.add_flag("--tables", options->tables,
+                 "measure the tables that papers and talks print of the technique, beside their numbers, instead of ratios");
+    app.add_option("--only", options->only, "measure only ratios whose name, or tables whose title, contains this text");
     app.add_option("--frame", options->frame, "index of the frame, default 0")->needs(capture);
     app.add_option("--size", options->size,
                    "extent of the scenarios as WIDTHxHEIGHT; default 320x180 on a CPU device, else 1920x1080")

@@ -9,6 +9,7 @@
 #include "passes/technique.h"
 #include "replay/bench/bench.h"
 #include "replay/bench/device_bench.h"
+#include "replay/bench/published_tables.h"
 #include "replay/compare/report_comparison.h"
 #include "replay/difference/comparison.h"
 #include "replay/isa/isa_columns.h"
@@ -109,6 +110,12 @@ std::string whole_document() {
     text += section("strata report --needs: stages", "In JSON `stages` of `frames`; not in CSV.", sheet_of_stages(Needs()));
     text += section("strata bench", "A row for each ratio. JSON also has `steps`, `extent` and the `counters` of both variants.",
                     sheet_of(Bench()));
+    text +=
+        section("strata bench --tables",
+                "A row for each cell of each table, column by column; in JSON `rows` of `tables`, which also have `technique`, "
+                "`title`, `source`,\n`derivation`, `note`, `scene`, `frame`, `extent`, `samples`, `witness` and `variants` "
+                "(`row`, `variant`, `against`, `stage_bytes`, `counters`). CSV\nbegins with `technique`, `table` and `scene`.",
+                sheet_of(MeasuredTable()));
     text += section("strata bench device", "A row for each of the slowest steps; in JSON `steps`.", sheet_of(DeviceBench()));
     text += section("strata spectra", "A row for each mode that was found; in JSON `modes`.", sheet_of(SpectraReport()));
     text += section("strata isa: programs", "In JSON `programs` of `gpus`, with `occupancy`.", programs_of(IsaOfGpu()));

@@ -34,9 +34,9 @@ TileSurfaces surfaces_of(const StageInput& input, glm::uvec2 tile) {
 }
 
 /// Which lights the tile of a pixel shades.
-class TileLists {
+class ListsOfModel {
 public:
-    TileLists(const StageInput& input, const TiledParams& params) {
+    ListsOfModel(const StageInput& input, const TiledParams& params) {
         const CullScene scene = cull_scene(input.frame);
         const ReferenceImage& normal = input.before.at("surface_normal");
         const glm::uvec2 tiles = (glm::uvec2(normal.width, normal.height) + tile_size - 1u) / tile_size;
@@ -62,7 +62,7 @@ private:
 LightFilter filter_of(const StageInput& input, const TiledParams& params) {
     LightFilter filter{.asks_blockers = params.blockers == blockers_per_pixel};
     const bool lists_matter = params.overflow == overflow_drop || params.blockers == blockers_tile_only;
-    if (lists_matter) filter.lists = TileLists(input, params);
+    if (lists_matter) filter.lists = ListsOfModel(input, params);
     return filter;
 }
 

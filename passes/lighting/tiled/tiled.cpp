@@ -10,6 +10,7 @@
 #include "passes/lighting/tiled/culling.h"
 #include "passes/lighting/tiled/modes.h"
 #include "passes/lighting/tiled/ratios.h"
+#include "passes/lighting/tiled/tables.h"
 #include "passes/lighting/tiled/views.h"
 #include "passes/shadows/filter.h"
 #include "passes/stage_input.h"
@@ -227,7 +228,7 @@ Technique tiled() {
         .abilities = {.variants = ShaderVariants{.constant = "mode", .view = "mode numbers", .table = "modes"},
                       .feature_modes =
                           FeatureModes{.table = "spectra", .constant = "mode_features", .count = "modes", .modes = mode_names}},
-        .claims = {.ratios = tiled_ratios()},
+        .claims = {.ratios = tiled_ratios(), .tables = tiled_published_tables()},
         .declare = declare,
         .model = tiled_model,
         .model_is = ModelKind::mirror,

@@ -186,6 +186,23 @@ std::vector<TimeRatio> ratios() {
     return ratios;
 }
 
+/// Look-ups that the talk counts, docs/algorithms/deferred.md 5.2 and 5.4. It prints no times.
+std::vector<PublishedTable> published_tables() {
+    const std::vector<TableValueColumn> columns = {{.title = "look-ups", .unit = "", .value = TableValue::nothing},
+                                                   {.title = "bounds", .parts = {"/bounds"}}};
+    return {{.title = "bounds of 4x4 texels",
+             .source = "Lobanchikov and Gruen's talk",
+             .columns = columns,
+             .rows = {{"point samples", {}, {{16.}, {}}}, {"Gather()", "form=block", {{4.}, {}}}},
+             .scenario = "sun_and_boxes"},
+            {.title = "filter of 4x4 texels",
+             .source = "Lobanchikov and Gruen's talk",
+             .columns = {columns.front()},
+             .rows = {{"bilinear comparisons", {}, {{9.}}}, {"Gather()", {}, {{4.}}}},
+             .scenario = "sun_and_boxes",
+             .note = "Strata's filter reads its 16 texels one by one"}};
+}
+
 }  // namespace
 
 Technique min_max() {
@@ -204,7 +221,7 @@ Technique min_max() {
         .counter_bytes = sizeof(ShadowCounters),
         .views = views(),
         .tables = tables(),
-        .claims = {.ratios = ratios()},
+        .claims = {.ratios = ratios(), .tables = published_tables()},
         .declare = draw_maps,
         .at_other_stages = {{.at = Stage::occlusion, .declare = filter_maps}},
         .model = min_max_model,

@@ -10,6 +10,7 @@
 #include "passes/transparency/functions/motion.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/voxel/ratios.h"
+#include "passes/transparency/voxel/tables.h"
 #include "passes/transparency/voxel/views/views.h"
 #include "passes/transparency/voxel/volume/dimensions.h"
 #include "passes/transparency/voxel/volume/volume.h"
@@ -436,7 +437,8 @@ Technique voxel() {
         .beyond_device = beyond_device,
         .claims = {.failures = {{"H4", 0.125, "the panes share a slice: the value of a tie"},
                                 {"H5", 0.129, "8 bits lose layers below .0108 altogether"}},
-                   .ratios = voxel_ratios()},
+                   .ratios = voxel_ratios(),
+                   .tables = voxel_published_tables()},
 
         .declare = add_function<sums>,
         .at_other_stages = {{.at = Stage::extinction, .declare = prepare}},
