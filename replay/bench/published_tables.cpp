@@ -103,7 +103,8 @@ Found found_counter(const TimedRow& timed, const TableValueColumn& column) {
     return {.not_measured = "no such counter"};
 }
 
-Found found_invocations(const TimedRow& timed, const TableValueColumn& column) {
+Found found_invocations(const Session& session, const TimedRow& timed, const TableValueColumn& column) {
+    if (session.device().software) return {.not_measured = "this driver counts fragments wrongly"};
     const auto found = timed.run->stage_invocations.find(std::string(column.parts.front()));
     if (found == timed.run->stage_invocations.end()) return {.not_measured = "the device does not count invocations"};
     return {.value = found->second};
@@ -130,7 +131,7 @@ Result<Found> found(Session& session, const TimedRow& timed, const TableValueCol
         case TableValue::counter:
             return found_counter(timed, column);
         case TableValue::invocations:
-            return found_invocations(timed, column);
+            return found_invocations(session, timed, column);
         case TableValue::waves:
         case TableValue::given:
         case TableValue::nothing:
@@ -196,6 +197,8 @@ Result<MeasuredTable> measure(Session& session, const TableClaim& claim, std::si
         if (!made) return made.error();
         rows.push_back(*std::move(made));
     }
+    const auto counts = [](const TableValueColumn& column) { return column.value == TableValue::invocations; };
+    for (Request& request : requests) request.counted = std::ranges::any_of(claim.table->columns, counts);
     const auto runs = requests.empty() ? Result(std::vector<Run>()) : session.time(requests, repeats);
     if (!runs) return runs.error();
     if (!runs->empty() && runs->front().frame_ms_by_repeat.size() < repeats)
