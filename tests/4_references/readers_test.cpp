@@ -11,25 +11,10 @@
 #include "capture_format/frame/mesh.h"
 #include "capture_format/frame/particles.h"
 #include "passes/scene/scene_facts.h"
+#include "tests/4_references/squares_in_view.h"
 
 namespace strata {
 namespace {
-
-/// An eye at the origin that looks along +z; its image is as wide as it is far.
-Frame empty_view() {
-    Frame frame;
-    frame.view.projection[0][0] = frame.view.projection[1][1] = 2;
-    frame.view.projection[2][3] = 1;
-    frame.materials.emplace_back();
-    return frame;
-}
-
-void add_square(Frame& frame, const glm::dvec3& center, float half) {
-    frame.meshes.push_back({.positions = {{-half, 0, -half}, {half, 0, -half}, {half, 0, half}}});
-    Draw& draw = frame.draws.emplace_back();
-    draw.mesh = static_cast<std::uint32_t>(frame.meshes.size() - 1);
-    draw.to_world[3] = glm::dvec4(center, 1);
-}
 
 TEST(Readers, AreNotOfAFloorBehindTheEyeThoughItsSphereReachesIntoView) {
     Frame behind = empty_view(), below = empty_view();
