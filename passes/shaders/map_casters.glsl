@@ -1,7 +1,7 @@
-// Casters that a part of a light's map sees, by their bounding spheres: never fewer.
+// Casters that a part of a light's map sees, by their bounding spheres: never fewer. Whoever includes this includes
+// passes/culling/draw_command.shared.h before.
 #ifndef PASSES_SHADERS_MAP_CASTERS_GLSL
 #define PASSES_SHADERS_MAP_CASTERS_GLSL
-#include "passes/culling/draw_command.shared.h"
 #include "passes/shaders/map_casters.shared.h"
 #include "passes/shaders/scene.glsl"
 

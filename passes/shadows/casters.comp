@@ -2,6 +2,7 @@
 // light does not reach them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "passes/culling/draw_command.shared.h"
 #include "passes/shaders/map_casters.glsl"
 #include "passes/shadows/shadows.shared.h"
 

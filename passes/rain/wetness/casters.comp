@@ -1,6 +1,7 @@
 // The casters' draw commands for a rain map: without instances where the part of the map that is drawn does not see them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "passes/culling/draw_command.shared.h"
 #include "passes/shaders/map_casters.glsl"
 
 layout(local_size_x = 64) in;

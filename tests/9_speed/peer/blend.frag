@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "scene.glsl"
-#include "shade.glsl"
+#include "tests/9_speed/peer/scene.glsl"
+#include "tests/9_speed/peer/shade.glsl"
 
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;

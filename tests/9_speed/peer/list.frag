@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "scene.glsl"
-#include "shade.glsl"
+#include "tests/9_speed/peer/scene.glsl"
+#include "tests/9_speed/peer/shade.glsl"
 
 layout(early_fragment_tests) in;
 layout(set = 0, binding = 0, r32ui) uniform uimage2D heads;

@@ -18,10 +18,10 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfOutputFile.h>
 
-#include "blend_frag.h"
-#include "list_frag.h"
-#include "resolve_comp.h"
-#include "sphere_vert.h"
+#include <blend_frag.h>
+#include <list_frag.h>
+#include <resolve_comp.h>
+#include <sphere_vert.h>
 #include "tests/9_speed/peer/device.h"
 #include "tests/9_speed/peer/spheres.h"
 

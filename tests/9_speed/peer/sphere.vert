@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "scene.glsl"
+#include "tests/9_speed/peer/scene.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

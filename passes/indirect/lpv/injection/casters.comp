@@ -2,6 +2,7 @@
 // reach them, or no grid of the light is lit anew.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "passes/culling/draw_command.shared.h"
 #include "passes/indirect/lpv/kept/kept.shared.h"
 #include "passes/shaders/map_casters.glsl"
 
