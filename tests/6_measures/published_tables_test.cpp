@@ -3,18 +3,19 @@
 #include <array>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "capture_format/frame/frame.h"
 #include "passes/registry.h"
 #include "passes/stages.h"
 #include "passes/technique.h"
 #include "replay/bench/published_tables.h"
 #include "replay/isa/gpu_models.h"
-#include "replay/session/choice_text.h"
+#include "replay/report/variants.h"
+#include "replay/session/choices.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -43,21 +44,12 @@ Numbers published(const PublishedTable& table) {
     return numbers;
 }
 
-/// Empty if every word after a technique's name, where there is one, is a setting that the technique has.
+/// Empty if there is such a variant.
 std::string fault_of(const Technique& stating, std::string_view variant) {
-    std::istringstream words{std::string(variant)};
-    const Technique* technique = &stating;
-    bool is_first = true;
-    for (std::string word; words >> word; is_first = false) {
-        if (is_first && word.find('=') == word.npos) {
-            const auto other = find_technique(fmt::format("{}/{}", name(stating.stage), word));
-            if (!other) return other.error().sentence;
-            technique = *other;
-        } else if (const auto setting = parse_setting(*technique, word); !setting) {
-            return setting.error().sentence;
-        }
-    }
-    return "";
+    const auto made = variant_of(stating, variant, {});
+    if (!made) return made.error().sentence;
+    const auto chosen = choose(Frame{}, made->request.choices);
+    return chosen ? "" : chosen.error().sentence;
 }
 
 template <typename Check>
