@@ -15,7 +15,7 @@ namespace {
 
 Result<Sweep> parse_sweep(const std::string& text) {
     const std::size_t equals = text.find('=');
-    if (equals == text.npos || equals + 1 == text.size())
+    if (equals == std::string::npos || equals + 1 == text.size())
         return fail(Fault::usage, "options.malformed", "{option} takes key=a,b,c, not '{value}'", "--sweep", text);
     Sweep sweep{.key = text.substr(0, equals)};
     for (std::size_t begin = equals + 1; begin <= text.size();) {
