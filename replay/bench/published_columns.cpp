@@ -196,6 +196,7 @@ std::string as_text(const PublishedTables& tables) { return as_text(page_of(tabl
 
 std::string as_csv(const PublishedTables& tables) {
     std::vector<Sheet> sheets;
+    sheets.reserve(tables.tables.size());
     for (const MeasuredTable& table : tables.tables) sheets.push_back(sheet_of(table));
     return as_csv(sheets);
 }

@@ -88,7 +88,7 @@ Result<Found> found_memory(Session& session, const TimedRow& timed, const TableV
     for (const Life& life : lives_of(planned->plan)) {
         const std::string_view called =
             life.is_image ? std::string_view(planned->plan.images[life.id].name) : planned->plan.buffers[life.id].name;
-        const auto is_part = [&](std::string_view part) { return called.find(part) != called.npos; };
+        const auto is_part = [&](std::string_view part) { return called.find(part) != std::string_view::npos; };
         if (std::ranges::any_of(column.parts, is_part)) bytes += life.bytes;
     }
     if (bytes == 0) return Found{.not_measured = "no such image or buffer"};

@@ -23,7 +23,7 @@ Result<void> check_can_run(Session& session, const Variant& variant) {
 std::vector<double> times_of_steps(const Run& run, std::string_view technique, std::span<const std::string_view> parts) {
     std::vector<double> sums;
     for (const StepRecord& step : run.steps) {
-        const auto is_part = [&](std::string_view part) { return step.name.find(part) != step.name.npos; };
+        const auto is_part = [&](std::string_view part) { return step.name.find(part) != std::string::npos; };
         if (!is_pass_of(step.scope, technique) || !(parts.empty() || std::ranges::any_of(parts, is_part))) continue;
         sums.resize(step.ms_by_repeat.size());
         for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += step.ms_by_repeat[i];

@@ -57,7 +57,7 @@ Result<std::vector<Claim>> claims_of(const std::string& word, const std::string&
         if (std::ranges::count(called, &technique) == 0) continue;
         for (const TimeRatio& ratio : technique.claims.ratios) {
             names.push_back(ratio.name);
-            if (ratio.name.find(only) != ratio.name.npos) claims.push_back({.technique = &technique, .ratio = &ratio});
+            if (ratio.name.find(only) != std::string_view::npos) claims.push_back({.technique = &technique, .ratio = &ratio});
         }
     }
     if (called.empty())
@@ -84,7 +84,7 @@ Result<std::vector<TableClaim>> tables_of(const std::string& word, const std::st
         if (std::ranges::count(called, &technique) == 0) continue;
         for (const PublishedTable& table : technique.claims.tables) {
             titles.push_back(table.title);
-            if (table.title.find(only) != table.title.npos) claims.push_back({.technique = &technique, .table = &table});
+            if (table.title.find(only) != std::string_view::npos) claims.push_back({.technique = &technique, .table = &table});
         }
     }
     if (called.empty())

@@ -1,5 +1,6 @@
 #include "replay/cli/report_needs.h"
 
+#include "capture_format/container/whole_file.h"
 #include "replay/cli/given_options.h"
 #include "replay/cli/left_out.h"
 #include "replay/progress_line.h"

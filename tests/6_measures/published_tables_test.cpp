@@ -23,7 +23,6 @@ namespace {
 
 using nlohmann::json;
 using testing::AllOf;
-using testing::ElementsAreArray;
 using testing::HasSubstr;
 using testing::Not;
 

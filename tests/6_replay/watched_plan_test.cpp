@@ -14,7 +14,6 @@ void PrintTo(const ProductUse& use, std::ostream* out) {
 
 namespace {
 
-using testing::ElementsAre;
 using testing::IsEmpty;
 
 /// Writes all of an image or a buffer of 64 words.
